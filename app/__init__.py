@@ -1,0 +1,1 @@
+"""gc-teach: teach a robot arm a motion in the browser."""

@@ -1,0 +1,1 @@
+"""Generalized cylinders for learning, reproducing, generalizing and refining motions."""
