@@ -1,0 +1,17 @@
+"""The arm: a protocol, the Jaco that answers to it, and a tiny arm for tests."""
+
+from app.arm.errors import ArmClosedError, ArmError, ArmInputError, ArmModelError
+from app.arm.protocol import HERE, Arm, FloatArray, JointPath, LinkMesh, Shortfall
+
+__all__ = [
+    "HERE",
+    "Arm",
+    "ArmClosedError",
+    "ArmError",
+    "ArmInputError",
+    "ArmModelError",
+    "FloatArray",
+    "JointPath",
+    "LinkMesh",
+    "Shortfall",
+]

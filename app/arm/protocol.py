@@ -1,0 +1,210 @@
+"""What the app asks of an arm: joints go in, joints and poses come out.
+
+Every call is a function of its arguments alone, whatever an arm keeps inside;
+an arm object belongs to one thread at a time. Positions are metres in the
+arm's base frame, which is the world of the scene. Joints are radians and never
+wrap: a joint that turns without end counts its turns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+"""Joints, positions and poses: float64, SI units."""
+
+HERE = 0.005
+"""A hand closer than this to where it is wanted is there [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class LinkMesh:
+    """One drawable part of an arm; it moves with its link and never changes."""
+
+    link: str
+    """The link that carries it: a key of `Arm.link_poses`."""
+    vertices: npt.NDArray[np.float32]
+    """(V, 3) corners in the frame of the link [m]."""
+    faces: npt.NDArray[np.uint32]
+    """(F, 3) indices of the corners of each triangle, counter-clockwise from outside."""
+    color: tuple[int, int, int]
+    """Red, green, blue, each 0..255."""
+
+
+@dataclass(frozen=True, eq=False)
+class JointPath:
+    """An arm's way along a path of tool positions."""
+
+    joints: FloatArray
+    """(K, J) joints at each position [rad]."""
+    errors: FloatArray
+    """(K,) distance from the tool to the wanted position [m]."""
+
+
+@dataclass(frozen=True)
+class Shortfall:
+    """The hand is not where it is wanted, and why, in a teacher's words."""
+
+    distance: float
+    """From the tool to the wanted position [m]."""
+    reason: str
+    """For instance ``12 cm beyond reach`` or ``joint 4 at its limit``; no full stop."""
+
+
+class Arm(Protocol):
+    """An arm that can be drawn, dragged by its hand and led along a path."""
+
+    @property
+    def name(self) -> str:
+        """What people call it."""
+        ...
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """One name for each of the J joints, from the base outwards."""
+        ...
+
+    @property
+    def home(self) -> FloatArray:
+        """(J,) joints at rest [rad]."""
+        ...
+
+    @property
+    def lower(self) -> FloatArray:
+        """(J,) lower joint limits [rad]."""
+        ...
+
+    @property
+    def upper(self) -> FloatArray:
+        """(J,) upper joint limits [rad]."""
+        ...
+
+    @property
+    def velocity_limits(self) -> FloatArray:
+        """(J,) how fast the real joints turn [rad/s]; `step` may be faster."""
+        ...
+
+    @property
+    def link_meshes(self) -> tuple[LinkMesh, ...]:
+        """The parts to draw, once."""
+        ...
+
+    def tool_pose(self, joints: FloatArray) -> FloatArray:
+        """Say where the tool is.
+
+        Parameters
+        ----------
+        joints : (J,) array
+            Joints [rad]; finite. Outside the limits they are clipped.
+
+        Returns
+        -------
+        (4, 4) array
+            ``T_world_tool``: origin at the tool tip [m].
+
+        Raises
+        ------
+        ArmInputError
+            If the joints are not J finite numbers.
+        """
+        ...
+
+    def link_poses(self, joints: FloatArray, gripper: float) -> Mapping[str, FloatArray]:
+        """Say where every drawn link is.
+
+        Parameters
+        ----------
+        joints : (J,) array
+            Joints [rad]; finite. Outside the limits they are clipped.
+        gripper : float
+            0 is open, 1 is closed; values outside are clipped.
+
+        Returns
+        -------
+        mapping of str to (4, 4) array
+            ``T_world_link`` of every link that carries a mesh.
+
+        Raises
+        ------
+        ArmInputError
+            If the joints or the gripper are not finite.
+        """
+        ...
+
+    def step(self, joints: FloatArray, target: FloatArray, dt: float = 0.01) -> FloatArray:
+        """Follow the pulled hand for one tick.
+
+        Parameters
+        ----------
+        joints : (J,) array
+            Joints before the tick [rad]; finite.
+        target : (3,) array
+            Where the hand is wanted [m]; any finite position, reachable or not.
+        dt : float
+            Length of the tick [s]; positive.
+
+        Returns
+        -------
+        (J,) array
+            Joints after the tick [rad], within the limits, none of them moved
+            by more than a speed bound of the arm times ``dt``.
+
+        Raises
+        ------
+        ArmInputError
+            If an argument has the wrong shape or is not finite.
+        """
+        ...
+
+    def follow(self, positions: FloatArray, start: FloatArray | None = None) -> JointPath:
+        """Lead the tool along a path, without jumps of the joints.
+
+        Parameters
+        ----------
+        positions : (K, 3) array
+            Wanted tool positions [m], in order; K >= 1.
+        start : (J,) array, optional
+            Joints near which the path should begin [rad].
+
+        Returns
+        -------
+        JointPath
+            The best joints found for every position, with the distances left.
+
+        Raises
+        ------
+        ArmInputError
+            If an argument has the wrong shape or is not finite.
+        """
+        ...
+
+    def shortfall(self, joints: FloatArray, target: FloatArray) -> Shortfall | None:
+        """Say why the hand is not where it is wanted.
+
+        Parameters
+        ----------
+        joints : (J,) array
+            Joints after the arm came to rest [rad].
+        target : (3,) array
+            Where the hand is wanted [m].
+
+        Returns
+        -------
+        Shortfall or None
+            None when the hand is within `HERE` of the target.
+
+        Raises
+        ------
+        ArmInputError
+            If an argument has the wrong shape or is not finite.
+        """
+        ...
+
+    def close(self) -> None:
+        """Give the arm back; it must not be used afterwards. Closing twice is allowed."""
+        ...
