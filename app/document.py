@@ -1,0 +1,98 @@
+"""What a person makes: the only thing that undo and saving know about.
+
+A `Document` never changes; `app.edits` makes the next one. What a person merely
+looks at (tabs, what is visible, how wide a pull is) is the `View`, which is neither
+saved nor undone. Positions are in the robot's base frame [m].
+"""
+
+from dataclasses import dataclass
+from typing import Final, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gc_core import Constraint, Demonstration
+
+FloatArray: TypeAlias = NDArray[np.float64]
+SectionKind: TypeAlias = Literal["circle", "ellipse", "closed_spline"]
+Alignment: TypeAlias = Literal["time", "arc_length"]
+
+SECTION_KINDS: Final[tuple[SectionKind, ...]] = ("circle", "ellipse", "closed_spline")
+ALIGNMENTS: Final[tuple[Alignment, ...]] = ("time", "arc_length")
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """One demonstration in the list."""
+
+    demonstration: Demonstration
+    muted: bool = False
+    """Kept and drawn, but not learned from."""
+
+
+@dataclass(frozen=True, eq=False)
+class Place:
+    """A landmark: something the motion is tied to, where it was and where it is now."""
+
+    name: str
+    """Also its name in the scene: ``/landmarks/<name>``."""
+    taught: FloatArray | None = None
+    """(3,) where it stood while the skill was taught [m]; None: the end of the demonstrations
+    (their beginning for ``start``)."""
+    now: FloatArray | None = None
+    """(3,) where it stands now [m]; None: it was not moved."""
+
+
+@dataclass(frozen=True, eq=False)
+class Rule:
+    """A correction of a reproduction, kept as a constraint that can be switched off."""
+
+    constraint: Constraint
+    name: str
+    enabled: bool = True
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How the demonstrations are encoded."""
+
+    section: SectionKind = "closed_spline"
+    align_by: Alignment = "arc_length"
+    stations: int = 200
+
+
+@dataclass(frozen=True, eq=False)
+class Document:
+    """A skill: what was shown, how it is encoded, what was moved and corrected."""
+
+    title: str
+    about: str = ""
+    """One sentence for the person who opens it."""
+    demonstrations: tuple[Shown, ...] = ()
+    settings: Settings = Settings()
+    landmarks: tuple[Place, ...] = (Place("start"), Place("goal"))
+    starts: tuple[FloatArray, ...] = ()
+    """Where reproductions begin, each (3,) [m]."""
+    rules: tuple[Rule, ...] = ()
+    built_in: bool = False
+    """A built-in skill; its first edit makes a copy."""
+
+
+Tab: TypeAlias = Literal["Teach", "Try", "Move", "Fix"]
+
+
+@dataclass(frozen=True)
+class View:
+    """What a person looks at and works with; not saved, not undone."""
+
+    tab: Tab = "Teach"
+    show_tube: bool = True
+    show_demonstrations: bool = True
+    show_reproductions: bool = True
+    pull_width: float = 0.20
+    """How far along a line a pull reaches to either side [m of arc length]."""
+    gripper_closed: bool = False
+    """What the hand does during the next demonstration."""
+    speed: float = 1.0
+    """Playback speed as a multiple of the taught one."""
+    loop: bool = True
