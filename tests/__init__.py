@@ -1,0 +1,1 @@
+"""The project's tests, fastest first; see ARCHITECTURE.md."""

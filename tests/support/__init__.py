@@ -1,0 +1,1 @@
+"""What several test folders share: a client without a browser, and a real browser."""
