@@ -1,0 +1,89 @@
+"""What a person can do: the words between the browser and the session.
+
+Panels and scene know only these; every call posts to the session's mailbox and
+returns at once, so that a viser callback never waits and never changes anything.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal, Protocol, TypeAlias
+
+from app.document import Document, FloatArray
+from app.files import Frame, Unit
+
+Phase: TypeAlias = Literal["start", "update", "end"]
+
+
+@dataclass(frozen=True, eq=False)
+class Drag:
+    """One event of a pull on something in the scene, checked and stamped on arrival."""
+
+    node: str
+    """Scene name of what was grabbed, for instance ``/demonstrations/2``."""
+    phase: Phase
+    grabbed: FloatArray
+    """(3,) the point of the object under the pointer [m]; it moves with the object."""
+    pointer: FloatArray
+    """(3,) the pointer on the camera-parallel plane through the grabbed point [m]."""
+    time: float
+    """Session time of arrival [s]."""
+    vertical: bool = False
+    """Shift is held: only the height changes."""
+    aside: bool = False
+    """Pulled with the right button: moves the hand without recording."""
+
+
+class Actions(Protocol):
+    """What panels and scene may ask for."""
+
+    def edit(self, f: Callable[[Document], Document], name: str, key: str | None = None) -> None:
+        """Make one undo step, called ``name`` on the undo button (``move goal``)."""
+        ...
+
+    def look(self, **changes: Any) -> None:
+        """Change fields of the `View`."""
+        ...
+
+    def undo(self) -> None:
+        """Take the last edit back."""
+        ...
+
+    def redo(self) -> None:
+        """Do the last undone edit again."""
+        ...
+
+    def play(self, playing: bool) -> None:
+        """Start or pause the playback."""
+        ...
+
+    def seek(self, time: float) -> None:
+        """Move the playhead [s]."""
+        ...
+
+    def choose_run(self, run: int) -> None:
+        """Let the arm play another reproduction."""
+        ...
+
+    def drag(self, drag: Drag) -> None:
+        """Begin, continue or end a pull."""
+        ...
+
+    def move_hand(self, position: FloatArray) -> None:
+        """Move the hand, and the start of the next demonstration, without recording."""
+        ...
+
+    def offer_file(self, name: str, content: bytes) -> None:
+        """Read an uploaded recording and show what is in it, before it is accepted."""
+        ...
+
+    def accept_file(self, unit: Unit, frame: Frame) -> None:
+        """Add the demonstrations of the offered file."""
+        ...
+
+    def decline_file(self) -> None:
+        """Forget the offered file."""
+        ...
+
+    def open_skill(self, name: str) -> None:
+        """Open a built-in skill, or an empty one (``""``), in place of the present one; can be undone."""
+        ...

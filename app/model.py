@@ -1,0 +1,210 @@
+"""What a document teaches: a pure function ``Document -> Model``, stage by stage.
+
+encode -> register and generalize -> reproduce -> constrain. A stage whose inputs are
+the same objects as last time is not computed again, so that dragging a start costs a
+reproduction and not a cylinder. Input that cannot be encoded is not an error here:
+the model then says in a sentence what is wrong.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from app.document import Document, FloatArray, Settings
+from gc_core import (
+    Constraint,
+    Demonstration,
+    GcError,
+    GeneralizedCylinder,
+    Landmark,
+    Reproduction,
+    ThinPlateSpline,
+    constrain,
+    encode,
+    generalize,
+    register,
+    reproduce,
+)
+
+DEFAULT_RATIO: Final = 0.5
+"""Without a start of one's own, the first reproduction begins this far off-centre."""
+
+
+@dataclass(frozen=True, eq=False)
+class Anchor:
+    """A landmark as it is: every position known."""
+
+    name: str
+    taught: FloatArray
+    """(3,) where it stood while the skill was taught [m]."""
+    now: FloatArray
+    """(3,) where it stands now [m]; the same object as ``taught`` unless it was moved."""
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """One reproduction and what it was before the rules."""
+
+    start: FloatArray
+    """(3,) where it begins [m]."""
+    free: Reproduction
+    """By the ratio rule alone."""
+    reproduction: Reproduction
+    """After the rules; the same object as ``free`` where no rule bites."""
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """Everything that is computed from a document."""
+
+    source: Document
+    demonstrations: tuple[Demonstration, ...] = ()
+    """Those that were learned from."""
+    taught: GeneralizedCylinder | None = None
+    """The cylinder where it was taught."""
+    anchors: tuple[Anchor, ...] = ()
+    registration: ThinPlateSpline | None = None
+    """From taught to present landmarks; None when nothing was moved."""
+    cylinder: GeneralizedCylinder | None = None
+    """The cylinder where the landmarks stand now."""
+    constraints: tuple[Constraint, ...] = ()
+    """The rules that are on."""
+    runs: tuple[Run, ...] = ()
+    problem: str | None = None
+    """Why there is no cylinder although something was shown."""
+
+    @property
+    def start_shift(self) -> FloatArray:
+        """(3,) how far the start landmark, and every start with it, was moved [m]."""
+        for anchor in self.anchors:
+            if anchor.name == "start":
+                return anchor.now - anchor.taught
+        return np.zeros(3)
+
+
+def learn(document: Document, previous: Model | None = None) -> Model:
+    """Compute a document's model, reusing what the previous one has already.
+
+    Parameters
+    ----------
+    document : Document
+        What was shown, moved and corrected.
+    previous : Model, optional
+        Any earlier model; its stages are reused where their inputs are the same objects.
+
+    Returns
+    -------
+    Model
+        With ``source`` set to the document.
+    """
+    former = previous or Model(Document(""))
+    if former.source is document:
+        return former
+    demonstrations = tuple(s.demonstration for s in document.demonstrations if not s.muted)
+    model = Model(document, demonstrations)
+    try:
+        model = _encode(model, former)
+        model = _generalize(model, former)
+        return _reproduce(model, former)
+    except GcError as error:
+        return replace(model, taught=None, cylinder=None, runs=(), problem=str(error))
+
+
+def _encode(model: Model, former: Model) -> Model:
+    settings = model.source.settings
+    if not model.demonstrations:
+        return model
+    unchanged = _same(model.demonstrations, former.demonstrations) and settings == former.source.settings
+    if unchanged and former.taught is not None:
+        return replace(model, taught=former.taught)
+    return replace(model, taught=encode_as(model.demonstrations, settings))
+
+
+def encode_as(demonstrations: tuple[Demonstration, ...], settings: Settings) -> GeneralizedCylinder:
+    """Encode demonstrations by a document's settings."""
+    return encode(
+        demonstrations,
+        section=settings.section,
+        stations=settings.stations,
+        align_by=settings.align_by,
+    )
+
+
+def _generalize(model: Model, former: Model) -> Model:
+    anchors = _anchors(model)
+    if model.taught is former.taught and _same_anchors(anchors, former.anchors):
+        return replace(
+            model, anchors=former.anchors, registration=former.registration, cylinder=former.cylinder
+        )
+    if model.taught is None or all(anchor.now is anchor.taught for anchor in anchors):
+        return replace(model, anchors=anchors, cylinder=model.taught)
+    registration = register(
+        [Landmark(anchor.taught, name=anchor.name) for anchor in anchors],
+        [Landmark(anchor.now, name=anchor.name) for anchor in anchors],
+    )
+    cylinder = generalize(model.taught, registration)
+    return replace(model, anchors=anchors, registration=registration, cylinder=cylinder)
+
+
+def _anchors(model: Model) -> tuple[Anchor, ...]:
+    """Give every landmark a position, from the ends of the directrix where it has none."""
+    ends: dict[str, FloatArray] = {}
+    if model.taught is not None:
+        ends = {"start": model.taught.directrix[0], "goal": model.taught.directrix[-1]}
+    anchors: list[Anchor] = []
+    for place in model.source.landmarks:
+        taught = place.taught if place.taught is not None else ends.get(place.name)
+        if taught is not None:
+            anchors.append(Anchor(place.name, taught, place.now if place.now is not None else taught))
+    return tuple(anchors)
+
+
+def _reproduce(model: Model, former: Model) -> Model:
+    if model.cylinder is None:
+        return model
+    constraints = tuple(rule.constraint for rule in model.source.rules if rule.enabled)
+    if _same(constraints, former.constraints):
+        constraints = former.constraints
+    model = replace(model, constraints=constraints)
+    starts = _starts(model, model.cylinder)
+    former_runs = former.runs if model.cylinder is former.cylinder else ()
+    runs = tuple(
+        _run(model, start, former_runs[i] if i < len(former_runs) else None, former.constraints)
+        for i, start in enumerate(starts)
+    )
+    return replace(model, runs=runs)
+
+
+def _run(
+    model: Model, start: FloatArray, former: Run | None, former_constraints: tuple[Constraint, ...]
+) -> Run:
+    assert model.cylinder is not None  # noqa: S101 - for the type checker; _reproduce saw to it
+    if former is not None and np.array_equal(start, former.start):
+        if model.constraints is former_constraints:
+            return former
+        free, start = former.free, former.start
+    else:
+        free = reproduce(model.cylinder, start)
+    return Run(start, free, constrain(free, model.constraints))
+
+
+def _starts(model: Model, cylinder: GeneralizedCylinder) -> tuple[FloatArray, ...]:
+    if not model.source.starts:
+        centre, rim = cylinder.directrix[0], cylinder.surface()[0, 0]
+        return (centre + DEFAULT_RATIO * (rim - centre),)
+    shift = model.start_shift
+    if not np.any(shift):
+        return model.source.starts
+    return tuple(start + shift for start in model.source.starts)
+
+
+def _same(one: tuple[object, ...], other: tuple[object, ...]) -> bool:
+    return len(one) == len(other) and all(a is b for a, b in zip(one, other, strict=True))
+
+
+def _same_anchors(one: tuple[Anchor, ...], other: tuple[Anchor, ...]) -> bool:
+    return len(one) == len(other) and all(
+        a.name == b.name and np.array_equal(a.taught, b.taught) and np.array_equal(a.now, b.now)
+        for a, b in zip(one, other, strict=True)
+    )

@@ -1,0 +1,167 @@
+"""The committed document with its history, and the snapshot that is drawn.
+
+Undo is a list of documents: nothing has to know how to reverse itself. Edits with the
+same key within a second are one step, because sliders never say when they are let go.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Final
+
+from app import edits
+from app.arm.protocol import JointPath, Shortfall
+from app.document import Document, FloatArray, View
+from app.model import Model
+
+MERGE_WITHIN: Final = 1.0
+"""Edits of one key closer together than this are one undo step [s]."""
+DEEPEST: Final = 300
+"""Undo steps that are kept."""
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """How the arm plays one reproduction; valid only for the model it was made for."""
+
+    source: Model
+    run: int
+    """Which reproduction."""
+    path: JointPath
+    """Joints at the samples of the reproduction."""
+
+
+@dataclass(frozen=True, eq=False)
+class Hand:
+    """The arm as it is drawn."""
+
+    joints: FloatArray
+    """(J,) [rad]."""
+    position: FloatArray
+    """(3,) tool tip [m]."""
+    wanted: FloatArray | None = None
+    """(3,) where the pointer wants the tool while it cannot follow [m]."""
+    shortfall: Shortfall | None = None
+    """Why it cannot follow."""
+    recording: FloatArray | None = None
+    """(T, 3) the demonstration drawn so far [m]."""
+    returns_to: FloatArray | None = None
+    """(3,) where the hand goes back to after the release [m]; while recording and returning."""
+
+
+@dataclass(frozen=True)
+class Playback:
+    """Where the playhead stands."""
+
+    time: float = 0.0
+    """On the clock of the reproduction [s]."""
+    duration: float = 0.0
+    """Of the reproduction that is played [s]; 0 when there is none."""
+    playing: bool = False
+    run: int = 0
+    """Which reproduction is played."""
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Everything that panels and scene draw; they read nothing else."""
+
+    document: Document
+    """The committed document, or a preview of it while something is dragged."""
+    view: View
+    model: Model
+    """Of ``document``."""
+    hand: Hand
+    playback: Playback
+    plan: Plan | None = None
+    dragging: str | None = None
+    """Scene name of what is dragged."""
+    undo_name: str | None = None
+    """What undo would take back, for instance ``move goal``."""
+    redo_name: str | None = None
+    message: str = ""
+    """One sentence about what just happened or what is wrong."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Step:
+    name: str
+    before: Document
+    after: Document
+    key: str | None
+    time: float
+
+
+@dataclass
+class Store:
+    """The document now, and the way back."""
+
+    document: Document
+    _done: list[_Step] = field(default_factory=list[_Step])
+    _undone: list[_Step] = field(default_factory=list[_Step])
+
+    def edit(
+        self, f: Callable[[Document], Document], name: str, *, now: float, key: str | None = None
+    ) -> bool:
+        """Make the next document.
+
+        Parameters
+        ----------
+        f : callable
+            A pure edit; the same object back means that nothing changed.
+        name : str
+            What the undo button calls it, for instance ``move goal``.
+        now : float
+            Session time [s].
+        key : str, optional
+            Edits of equal key within `MERGE_WITHIN` are one step.
+
+        Returns
+        -------
+        bool
+            Whether the document changed.
+
+        Raises
+        ------
+        GcError
+            From the edit; the document stays as it was.
+        """
+        before = self.document
+        after = edits.edit(before, f)
+        if after is before:
+            return False
+        last = self._done[-1] if self._done else None
+        if key is not None and last is not None and last.key == key and now - last.time <= MERGE_WITHIN:
+            self._done[-1] = _Step(name, last.before, after, key, now)
+        else:
+            self._done = [*self._done[-(DEEPEST - 1) :], _Step(name, before, after, key, now)]
+        self._undone = []
+        self.document = after
+        return True
+
+    @property
+    def undo_name(self) -> str | None:
+        """What `undo` would take back."""
+        return self._done[-1].name if self._done else None
+
+    @property
+    def redo_name(self) -> str | None:
+        """What `redo` would do again."""
+        return self._undone[-1].name if self._undone else None
+
+    def undo(self) -> str | None:
+        """Take the last edit back; returns its name, None when there is none."""
+        if not self._done:
+            return None
+        step = self._done.pop()
+        self._undone.append(step)
+        self.document = step.before
+        return step.name
+
+    def redo(self) -> str | None:
+        """Do the last undone edit again; returns its name, None when there is none."""
+        if not self._undone:
+            return None
+        step = self._undone.pop()
+        self._done.append(step)
+        self.document = step.after
+        return step.name
