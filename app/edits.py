@@ -170,9 +170,11 @@ def add_start(document: Document, position: FloatArray) -> Document:
 
 
 def move_start(document: Document, index: int, position: FloatArray) -> Document:
-    """Reproduce from somewhere else."""
-    former = _at(document.starts, index, "start")
+    """Reproduce from somewhere else; moving the start that every skill has makes it one's own."""
     moved = point(position)
+    if not document.starts and index == 0:
+        return replace(document, starts=(moved,))
+    former = _at(document.starts, index, "start")
     if np.array_equal(moved, former):
         return document
     starts = (*document.starts[:index], moved, *document.starts[index + 1 :])

@@ -11,6 +11,7 @@ from typing import Final
 from app import edits
 from app.arm.protocol import JointPath, Shortfall
 from app.document import Document, FloatArray, View
+from app.files import Unit
 from app.model import Model
 
 MERGE_WITHIN: Final = 1.0
@@ -62,6 +63,20 @@ class Playback:
 
 
 @dataclass(frozen=True, eq=False)
+class Offer:
+    """An uploaded file, looked into but not accepted yet."""
+
+    name: str
+    """Of the file."""
+    summary: str
+    """What is in it, in a teacher's words."""
+    unit: Unit
+    """The guess, to be confirmed."""
+    demonstrations: int
+    """How many it holds."""
+
+
+@dataclass(frozen=True, eq=False)
 class State:
     """Everything that panels and scene draw; they read nothing else."""
 
@@ -80,6 +95,12 @@ class State:
     redo_name: str | None = None
     message: str = ""
     """One sentence about what just happened or what is wrong."""
+    warning: bool = False
+    """Whether the message says that something is wrong."""
+    offer: Offer | None = None
+    """A file that waits to be accepted."""
+    saved: bool = True
+    """Whether the library holds the committed document."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,6 +158,12 @@ class Store:
         self._undone = []
         self.document = after
         return True
+
+    def replace(self, document: Document, name: str, *, now: float) -> None:
+        """Put another document in the place of this one, as a step that can be undone."""
+        self._done = [*self._done[-(DEEPEST - 1) :], _Step(name, self.document, document, None, now)]
+        self._undone = []
+        self.document = document
 
     @property
     def undo_name(self) -> str | None:

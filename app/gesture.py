@@ -1,0 +1,141 @@
+"""Pulling on things: every drag in the scene is one mechanism.
+
+The events of a pull become a displacement (`Track`); what was grabbed decides what the
+displacement means (`Pull`: an edit of the document). While the pull lasts the edit is
+applied to the document it began with and shown, but never stored; letting go commits
+it as one undo step. Pulling the hand is the one pull that takes time: see `app.handpull`.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from app import edits
+from app.actions import Drag
+from app.document import Document, FloatArray
+from app.model import Model
+from gc_core import Constraint, Demonstration, Reproduction, soft_correction
+
+GRACE: Final = 0.15
+"""A pull that ends and begins again on the same thing within this time is one [s]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """How far a thing was pulled, over all parts of one pull.
+
+    Pressing Shift in mid-drag ends one part and begins the next.
+    """
+
+    displacement: FloatArray
+    """(3,) so far [m]."""
+    base: FloatArray
+    """(3,) where this part is measured from [m]."""
+    before: FloatArray
+    """(3,) displacement by the former parts [m]."""
+
+
+def begin(drag: Drag) -> Track:
+    """Begin a pull at the point that was grabbed."""
+    zero = np.zeros(3)
+    return follow(Track(zero, drag.grabbed, zero), replace(drag, phase="update"))
+
+
+def follow(track: Track, drag: Drag) -> Track:
+    """Take one more event into account; Shift leaves only the height."""
+    if drag.phase == "start":
+        return Track(track.displacement, drag.pointer, track.displacement)
+    moved = drag.pointer - track.base
+    if drag.vertical:
+        moved = np.array([0.0, 0.0, moved[2]])
+    return replace(track, displacement=track.before + moved)
+
+
+@dataclass(frozen=True, eq=False)
+class Pull:
+    """What pulling on one thing means."""
+
+    node: str
+    """Scene name of what was grabbed."""
+    name: str
+    """Of the undo step."""
+    apply: Callable[[Document, FloatArray], Document]
+    """The edit, given the displacement [m]."""
+
+
+def pull_on(node: str, grabbed: FloatArray, model: Model, width: float) -> Pull | None:
+    """Find out what a pull means from what was grabbed.
+
+    Parameters
+    ----------
+    node : str
+        Scene name, for instance ``/landmarks/goal``.
+    grabbed : (3,) array
+        The point that was grabbed [m].
+    model : Model
+        What is shown.
+    width : float
+        How far along a line a pull reaches to either side [m].
+
+    Returns
+    -------
+    Pull or None
+        None for things that cannot be pulled (any more).
+    """
+    kind, _, which = node.strip("/").partition("/")
+    if kind == "landmarks":
+        return _pull_landmark(node, which, model)
+    index = int(which) if which.isdecimal() else -1
+    if kind == "start" and 0 <= index < len(model.runs):
+        return _pull_start(node, index, model)
+    if kind == "demonstrations" and 0 <= index < len(model.source.demonstrations):
+        return _pull_demonstration(node, index, grabbed, model, width)
+    if kind == "reproductions" and 0 <= index < len(model.runs):
+        return _pull_reproduction(node, model.runs[index].reproduction, grabbed, width)
+    return None
+
+
+def _pull_landmark(node: str, name: str, model: Model) -> Pull | None:
+    for anchor in model.anchors:
+        if anchor.name == name:
+            origin = anchor.now
+            return Pull(node, f"move {name}", lambda d, by: edits.move_landmark(d, name, origin + by))
+    return None
+
+
+def _pull_start(node: str, index: int, model: Model) -> Pull:
+    origin = model.runs[index].start - model.start_shift
+    return Pull(node, "move start of a new run", lambda d, by: edits.move_start(d, index, origin + by))
+
+
+def _pull_demonstration(node: str, index: int, grabbed: FloatArray, model: Model, width: float) -> Pull:
+    original = model.source.demonstrations[index].demonstration
+    nearest = _nearest(original.positions, grabbed)
+
+    def apply(document: Document, by: FloatArray) -> Document:
+        positions = soft_correction(original.positions, nearest, by, width)
+        return edits.replace_demonstration(document, index, corrected(original, positions))
+
+    return Pull(node, f"correct {original.name}", apply)
+
+
+def _pull_reproduction(node: str, original: Reproduction, grabbed: FloatArray, width: float) -> Pull:
+    nearest = _nearest(original.positions, grabbed)
+
+    def apply(document: Document, by: FloatArray) -> Document:
+        positions = soft_correction(original.positions, nearest, by, width)
+        rule = Constraint.from_correction(original, replace(original, positions=positions))
+        return edits.add_rule(document, rule)
+
+    return Pull(node, "add a rule", apply)
+
+
+def corrected(original: Demonstration, positions: FloatArray) -> Demonstration:
+    """Give a demonstration other positions; its timing, orientations and gripper stay."""
+    return replace(original, positions=positions)
+
+
+def _nearest(positions: FloatArray, grabbed: FloatArray) -> int:
+    return int(np.argmin(np.linalg.norm(positions - grabbed, axis=1)))
