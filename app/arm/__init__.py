@@ -1,6 +1,7 @@
 """The arm: a protocol, the Jaco that answers to it, and a tiny arm for tests."""
 
 from app.arm.errors import ArmClosedError, ArmError, ArmInputError, ArmModelError
+from app.arm.jaco import Jaco
 from app.arm.protocol import HERE, Arm, FloatArray, JointPath, LinkMesh, Shortfall
 
 __all__ = [
@@ -11,6 +12,7 @@ __all__ = [
     "ArmInputError",
     "ArmModelError",
     "FloatArray",
+    "Jaco",
     "JointPath",
     "LinkMesh",
     "Shortfall",

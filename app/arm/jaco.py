@@ -1,0 +1,171 @@
+"""The Kinova Jaco (j2s6s200): six joints, a spherical wrist and two fingers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from app.arm import meshes, urdf
+from app.arm.cache import prepared_folder
+from app.arm.errors import ArmClosedError
+from app.arm.inputs import duration_of, gripper_of, joints_of, path_of, position_of
+from app.arm.paths import find_path
+from app.arm.protocol import HERE, FloatArray, JointPath, LinkMesh, Shortfall
+from app.arm.reach import Shell
+from app.arm.solver import SAFE_DISTANCE, Solver, SolverPool
+
+HOME = (-1.571, 3.68, 1.735, 3.142, 1.945, 0.0)
+"""Tool straight down at (0.010, -0.500, 0.250) m; within (-pi, pi] where joints are endless [rad]."""
+SHELL = Shell(shoulder=(0.0, 0.0, 0.2755), inner=0.25, outer=0.96, table=0.02)
+
+_POOL = SolverPool()
+_CLOSED = 1.34
+"""The fingers meet when they have turned this far [rad]."""
+_NEAR_LIMIT = 0.02
+"""A joint this near to its limit is what stops the arm [rad]."""
+_NEAR_BODY = 0.004
+"""Bodies nearer than the safe distance plus this are what stops the arm [m]."""
+_CREEPING = 2e-4
+"""A joint step below this in a tick is no motion any more [rad]."""
+_COLUMN = (urdf.BASE_LINK, urdf.MOVING_LINKS[0])
+
+
+class Jaco:
+    """A simulated Jaco; see `app.arm.protocol.Arm` for what each call promises.
+
+    Parameters
+    ----------
+    folder : Path, optional
+        A prepared model, by default the one in the cache, prepared now where
+        it is missing (some seconds, once on a machine).
+
+    Raises
+    ------
+    ArmModelError
+        If the model cannot be found, prepared or read.
+    """
+
+    def __init__(self, folder: Path | None = None) -> None:
+        self._folder = prepared_folder() if folder is None else folder
+        self._link_meshes = _read_meshes(self._folder)
+        self._home = _read_only(HOME)
+        self._solver: Solver | None = _POOL.acquire(self._folder, self._home)
+        self._kinematics = self._solver.kinematics
+
+    @property
+    def name(self) -> str:
+        """What people call it."""
+        return "Jaco"
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """Joints 1 to 6, from the base outwards."""
+        return urdf.JOINT_NAMES
+
+    @property
+    def home(self) -> FloatArray:
+        """(6,) joints at rest: the tool points down, half a metre in front [rad]."""
+        return self._home
+
+    @property
+    def lower(self) -> FloatArray:
+        """(6,) lower limits; joints 1, 4 and 6 turn 27.7 times either way [rad]."""
+        return self._kinematics.lower
+
+    @property
+    def upper(self) -> FloatArray:
+        """(6,) upper limits [rad]."""
+        return self._kinematics.upper
+
+    @property
+    def velocity_limits(self) -> FloatArray:
+        """(6,) what Kinova allows: 36 and 48 degrees a second [rad/s]."""
+        return self._kinematics.velocity_limits
+
+    @property
+    def link_meshes(self) -> tuple[LinkMesh, ...]:
+        """About 15 000 triangles in 17 parts."""
+        return self._link_meshes
+
+    def tool_pose(self, joints: npt.ArrayLike) -> FloatArray:
+        """Give the (4, 4) pose of the grip between the fingers; it points along its z axis."""
+        return self._use().frames(self._joints(joints), (urdf.TOOL,))[0]
+
+    def link_poses(self, joints: npt.ArrayLike, gripper: float) -> Mapping[str, FloatArray]:
+        """Give the (4, 4) pose of every drawn link; the fingers turn with the gripper."""
+        turned = urdf.rotation_about(2, _CLOSED * gripper_of(gripper))
+        frames = self._use().frames(self._joints(joints), urdf.MOVING_LINKS)
+        poses = {urdf.BASE_LINK: np.eye(4), **dict(zip(urdf.MOVING_LINKS, frames, strict=True))}
+        mounts = self._kinematics.mounts
+        for finger in urdf.FINGERS:
+            proximal = frames[-1] @ mounts[f"finger_{finger}"] @ turned
+            poses[f"{urdf.PREFIX}link_finger_{finger}"] = proximal
+            poses[f"{urdf.PREFIX}link_finger_tip_{finger}"] = proximal @ mounts[f"finger_tip_{finger}"]
+        return poses
+
+    def step(self, joints: npt.ArrayLike, target: npt.ArrayLike, dt: float = 0.01) -> FloatArray:
+        """Follow the hand for one tick: at most 3 rad/s, off its own body, above the table."""
+        wanted = SHELL.project(position_of(target))
+        return self._use().drag(self._joints(joints), wanted, duration_of(dt))
+
+    def follow(self, positions: npt.ArrayLike, start: npt.ArrayLike | None = None) -> JointPath:
+        """Lead the tool along a path; other postures are tried where the first one fails."""
+        path = path_of(positions)
+        first = None if start is None else self._joints(start)
+        wanted = SHELL.project(path, above_table=False)
+        found = find_path(self._use(), wanted, start=first, home=self._home)
+        if wanted is path or np.array_equal(wanted, path):
+            return found
+        tips = np.array([self._use().tip(joints) for joints in found.joints])
+        return JointPath(found.joints, np.linalg.norm(tips - path, axis=1))
+
+    def shortfall(self, joints: npt.ArrayLike, target: npt.ArrayLike) -> Shortfall | None:
+        """Say why the tool is not at the target: reach, table, own body, a joint's limit."""
+        placed, wanted = self._joints(joints), position_of(target)
+        distance = float(np.linalg.norm(self._use().tip(placed) - wanted))
+        if distance <= HERE:
+            return None
+        return Shortfall(distance, SHELL.outside(wanted) or self._obstacle(placed, wanted))
+
+    def close(self) -> None:
+        """Give the solver back to the pool."""
+        solver, self._solver = self._solver, None
+        if solver is not None:
+            _POOL.release(self._folder, solver)
+
+    def _obstacle(self, joints: FloatArray, target: FloatArray) -> str:
+        """Say what keeps the tool from a target inside the shell."""
+        after = self._use().drag(joints, SHELL.project(target), 0.01)
+        if np.abs(after - joints).max() > _CREEPING:
+            return "still on its way"
+        distance, *bodies = self._use().closest_bodies(joints)
+        if distance < SAFE_DISTANCE + _NEAR_BODY:
+            touching = any(body.startswith(_COLUMN) for body in bodies)
+            return "too close to its own base" if touching else "its own arm is in the way"
+        room = np.minimum(joints - self.lower, self.upper - joints)
+        if room.min() < _NEAR_LIMIT:
+            return f"joint {int(room.argmin()) + 1} at its limit"
+        return "no way from here: lead the hand around the base"
+
+    def _joints(self, joints: npt.ArrayLike) -> FloatArray:
+        return joints_of(joints, self._kinematics.lower, self._kinematics.upper)
+
+    def _use(self) -> Solver:
+        if self._solver is None:
+            raise ArmClosedError(self.name)
+        return self._solver
+
+
+@cache
+def _read_meshes(folder: Path) -> tuple[LinkMesh, ...]:
+    return meshes.read(folder)
+
+
+def _read_only(values: npt.ArrayLike) -> FloatArray:
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array
