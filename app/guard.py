@@ -1,23 +1,32 @@
 """What a tab may send to viser: uploads that were allowed, and values of GUI elements, nothing else of them.
 
 viser 1.1.1 lets any tab name any attribute of a GUI element in an update, its list of callbacks included,
-and takes uploads of any size for any element. Both handlers are replaced here by ones that look first.
+and takes uploads of any size for any element. Both handlers are replaced here by ones that look first; those
+of the public share tunnel are taken away.
 """
 
 # pyright: reportPrivateUsage=false
 # As in app.web: viser has no public way to do this.
 
 from collections.abc import Callable, Coroutine
-from typing import Any
+from typing import Any, Protocol, cast
 
 import viser
 from viser import _messages as messages
-from viser.infra import WebsockMessageHandler
 
 from app.uploads import Announcement, UploadLedger
 
 OnRefused = Callable[[int, str, int], None]
 """Called with (client id, file name, announced bytes) on viser's event loop: it must only post."""
+
+
+class _Handlers(Protocol):
+    """What viser's connections have in common; its own annotations leave the callbacks unknown."""
+
+    def register_handler(self, message_cls: type, callback: Callable[[Any, Any], object]) -> None: ...
+    def unregister_handler(
+        self, message_cls: type, callback: Callable[[Any, Any], object] | None = None
+    ) -> None: ...
 
 
 def guard(server: viser.ViserServer, upload_limit: int, on_refused: OnRefused | None) -> None:
@@ -32,18 +41,20 @@ def guard(server: viser.ViserServer, upload_limit: int, on_refused: OnRefused | 
     on_refused
         Told of each refused upload.
     """
-    shared = server._websock_server
-    shared.unregister_handler(messages.FileTransferStartUpload)
-    shared.unregister_handler(messages.FileTransferPart)
+    shared = cast(_Handlers, server._websock_server)
+    for message in (messages.ShareUrlRequest, messages.ShareUrlDisconnect):
+        shared.unregister_handler(message)
+    for message in (messages.FileTransferStartUpload, messages.FileTransferPart):
+        shared.unregister_handler(message)  # nothing is uploaded to what all tabs share
     _guard_values(shared, server.gui)
 
     @server.on_client_connect
     async def _(client: viser.ClientHandle) -> None:
-        _guard_values(client._websock_connection, client.gui)
+        _guard_values(cast(_Handlers, client._websock_connection), client.gui)
         _guard_uploads(client, UploadLedger(upload_limit), on_refused)
 
 
-def _guard_values(connection: WebsockMessageHandler, gui: viser.GuiApi) -> None:
+def _guard_values(connection: _Handlers, gui: viser.GuiApi) -> None:
     """Let updates through that change nothing but a value."""
     inner: Callable[[Any, messages.GuiUpdateMessage], Coroutine[Any, Any, None]] = gui._handle_gui_updates
 
@@ -76,7 +87,7 @@ def _guard_uploads(client: viser.ClientHandle, ledger: UploadLedger, on_refused:
             # viser forgets a complete upload itself; an incomplete one would stay until the tab closes.
             client.gui._current_file_upload_states.pop(transfer, None)
 
-    connection = client._websock_connection
+    connection = cast(_Handlers, client._websock_connection)
     connection.unregister_handler(messages.FileTransferStartUpload)
     connection.unregister_handler(messages.FileTransferPart)
     connection.register_handler(messages.FileTransferStartUpload, start)

@@ -104,7 +104,7 @@ def same_origin(origin: str | None, host: str | None) -> bool:
 
 
 def make_page(index: str, style: str) -> Reply:
-    """viser's page under our own name and with our own style.
+    """Make viser's page ours in name, icon and style.
 
     Parameters
     ----------

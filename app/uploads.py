@@ -10,7 +10,7 @@ from typing import Final
 MAX_AT_ONCE: Final = 4
 """Uploads that one tab may have under way."""
 MIN_PART: Final = 64 << 10
-"""Mean size of a part must reach this [bytes] (viser's page sends 512 kB); a list of tiny parts fills the memory."""
+"""Least mean size of a part [bytes]: a list of tiny ones fills the memory; viser's page sends 512 kB."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class UploadLedger:
         allowed = (
             upload.target_takes_files
             and sane
-            and 0 <= upload.size
+            and upload.size >= 0
             and self.announced + upload.size <= self._limit
             and upload.transfer not in self._open
             and len(self._open) < MAX_AT_ONCE

@@ -14,7 +14,7 @@ import logging
 import socket
 import sys
 import threading
-from collections.abc import Awaitable, Callable, Iterator
+from collections.abc import Awaitable, Callable, Generator
 from http import HTTPStatus
 from pathlib import Path
 from typing import Any, Final
@@ -22,7 +22,6 @@ from typing import Any, Final
 import rich
 import viser
 import websockets.asyncio.server as websocket_server
-from viser import _messages as messages
 from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
@@ -125,9 +124,6 @@ def open_server(
     except BaseException:
         listener.close()
         raise
-    websocket = server._websock_server
-    websocket.unregister_handler(messages.ShareUrlRequest)
-    websocket.unregister_handler(messages.ShareUrlDisconnect)
     server.gui.configure_theme(show_logo=False, show_share_button=False)
     guard(server, upload_limit, on_refused)
     return server
@@ -181,18 +177,13 @@ def _listen(host: str, port: int) -> socket.socket:
 
 
 @contextlib.contextmanager
-def _serving(listener: socket.socket, site: Site) -> Iterator[None]:
+def _serving(listener: socket.socket, site: Site) -> Generator[None]:
     """While viser builds its server, hand it our socket, our limits and our answers."""
     original = websocket_server.serve
 
     def serve(handler: Callable[[ServerConnection], Awaitable[None]], *_: object, **options: Any) -> Any:
-        ours = {
-            "sock": listener,
-            "max_size": MESSAGE_LIMIT,
-            "process_request": _request_handler(site),
-            "logger": _quiet_logger(),
-        }
-        return original(handler, **{**options, **ours})
+        options.update(max_size=MESSAGE_LIMIT, process_request=_request_handler(site), logger=_quiet_logger())
+        return original(handler, sock=listener, **options)
 
     with _building:
         websocket_server.serve = serve
