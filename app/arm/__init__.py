@@ -2,6 +2,7 @@
 
 from app.arm.errors import ArmClosedError, ArmError, ArmInputError, ArmModelError
 from app.arm.jaco import Jaco
+from app.arm.planar import PlanarArm
 from app.arm.protocol import HERE, Arm, FloatArray, JointPath, LinkMesh, Shortfall
 
 __all__ = [
@@ -15,5 +16,6 @@ __all__ = [
     "Jaco",
     "JointPath",
     "LinkMesh",
+    "PlanarArm",
     "Shortfall",
 ]

@@ -8,6 +8,7 @@ a weight of 1e-5 for "tool down" bends the tip by 0.04 mm only.
 
 from __future__ import annotations
 
+import math
 import threading
 from collections.abc import Sequence
 from importlib import import_module
@@ -33,7 +34,9 @@ _DAMPING, _DAMPING_PER_METRE = 1e-6, 0.1
 _TOOL_DOWN, _POSTURE, _AVOID = 1e-5, 1e-7, 1e3
 _TRIGGER = 0.06
 """Bodies of the arm begin to keep away from each other at this distance [m]."""
-_REACHED, _STILL = 1e-4, 1e-4
+_FIRST, _OTHERS = 80, 20
+"""Largest number of solves for the first position of a path and for each other one."""
+_REACHED, _STILL = 1e-4, 1e-3
 """A path point is solved when the tip is this near [m] and the joints move less than that [rad]."""
 
 
@@ -69,19 +72,12 @@ class Solver:
             self._solve(self._careful, target)
         return np.clip(self._joints(), joints - DRAG_SPEED * dt, joints + DRAG_SPEED * dt)
 
-    def reach(self, joints: FloatArray, position: FloatArray, iterations: int) -> tuple[FloatArray, float]:
-        """Bring the tool to one position; give the joints and the distance left [m]."""
-        path = self.walk(position[None], joints, first=iterations)
-        return path.joints[0], float(path.errors[0])
-
     def walk(
         self,
         positions: FloatArray,
         start: FloatArray,
         *,
         careful: bool = False,
-        first: int = 80,
-        others: int = 20,
     ) -> JointPath:
         """Visit positions (K, 3) one after the other, each from the joints of the one before.
 
@@ -93,8 +89,6 @@ class Solver:
             Joints to begin from [rad].
         careful : bool
             Keep the bodies of the arm apart; costs ten times as much.
-        first, others : int
-            Largest number of solves for the first position and for each other one.
 
         Returns
         -------
@@ -107,7 +101,7 @@ class Solver:
         self._place(start)
         joints, errors = np.empty((len(positions), len(start))), np.empty(len(positions))
         for index, position in enumerate(positions):
-            errors[index] = self._converge(tasks, position, first if index == 0 else others)
+            errors[index] = self._converge(tasks, position, _FIRST if index == 0 else _OTHERS)
             joints[index] = self._joints()
         return JointPath(joints, errors)
 
@@ -116,7 +110,7 @@ class Solver:
         self._place(joints)
         pairs: list[Any] = self._robot.distances()
         nearest = min(pairs, key=_min_distance)
-        return float(nearest.min_distance), self._bodies[nearest.objA], self._bodies[nearest.objB]
+        return float(nearest.min_distance), self._bodies[int(nearest.objA)], self._bodies[int(nearest.objB)]
 
     def self_distance(self, joints: FloatArray) -> float:
         """Give the smallest distance between bodies of the arm over joints (K, 6) [m]."""
@@ -126,14 +120,13 @@ class Solver:
         tasks.position.target_world = position
         for _ in range(iterations):
             moved = self._solve(tasks, position)
-            if moved < _STILL and np.linalg.norm(self._tip() - position) < _REACHED:
+            if moved < _STILL and math.dist(self._tip(), position) < _REACHED:
                 break
-        return float(np.linalg.norm(self._tip() - position))
+        return math.dist(self._tip(), position)
 
     def _solve(self, tasks: _Tasks, position: FloatArray) -> float:
         """Take one step; give the largest joint movement [rad]."""
-        distance = float(np.linalg.norm(self._tip() - position))
-        tasks.damping.set_weight(_DAMPING + _DAMPING_PER_METRE * distance)
+        tasks.damping.set_weight(_DAMPING + _DAMPING_PER_METRE * math.dist(self._tip(), position))
         try:
             moved = float(np.abs(tasks.solver.solve(True)).max())
         except RuntimeError:

@@ -1,0 +1,260 @@
+"""The hand's motion as a pure stepper in exact 10 ms ticks of session time.
+
+Events of a drag arrive about every 50 ms. An arm that runs to each of them and
+waits for the next one stops and goes; so the hand follows the straight lines
+between events one event late, when both ends of a line are known. A tick uses
+what had arrived by its time and nothing else, so the same events give the same
+motion however the calls are cut.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from app.arm.errors import ArmInputError
+from app.arm.protocol import Arm, FloatArray
+
+TICKS_PER_SECOND = 100
+"""Ticks are counted, not added up: tick k is at exactly k / 100 s."""
+LONGEST_GAP = 0.1
+"""After a longer silence of the events the pointer is taken to have stood still [s]."""
+USUAL_GAP = 0.05
+"""What it is taken to have moved for when it began again: the browser's usual interval [s]."""
+CATCH_UP = 1.1
+"""How fast the hand makes up for time lost to a late event; 1 is the pointer's own pace."""
+SETTLE_TIME = 0.6
+"""The longest time the hand is given to arrive after the last event [s]."""
+ARRIVED = 0.001
+"""A hand this near to the last target has arrived [m]."""
+STOPPED = 2e-5
+"""A hand that moves less than this in a tick has stopped [m]."""
+
+_TICK = 1.0 / TICKS_PER_SECOND
+_MARGIN = 0.01
+"""The hand stays this much further behind, so that a slightly late event does not stop it [s]."""
+_SLACK = 0.02
+"""A lag of the longest recent interval and this much is no time lost [s]."""
+_MEMORY = 1.0
+"""Recent is what the hand came past within this time [s]."""
+_ROUNDING = 1e-6
+"""Keeps 0.29 s, which times 100 is 28.999..., on its own tick."""
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """What the hand did, tick by tick."""
+
+    times: FloatArray
+    """(T,) session time of each tick, exact multiples of 10 ms [s]."""
+    joints: FloatArray
+    """(T, J) joints after each tick [rad]."""
+    positions: FloatArray
+    """(T, 3) tool tip after each tick [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Servo:
+    """A hand being led: where the arm is, and what it still has to do."""
+
+    tick: int
+    """Number of the last tick done; its session time is ``tick / 100`` s."""
+    joints: FloatArray
+    """(J,) joints after that tick [rad]."""
+    reference: float
+    """The event time that the hand has come to; behind the present by one event [s]."""
+    waypoints: FloatArray
+    """(W, 4) time [s] and position [m] of the events ahead and of the last second; W >= 1."""
+    pending: FloatArray
+    """(P, 4) events that have not arrived at the time of the last tick."""
+
+    @property
+    def time(self) -> float:
+        """Session time of the last tick [s]."""
+        return self.tick / TICKS_PER_SECOND
+
+
+def begin(arm: Arm, joints: FloatArray, time: float) -> Servo:
+    """Take the hand where it is.
+
+    Parameters
+    ----------
+    arm : Arm
+        Says where the tool is.
+    joints : (J,) array
+        Present joints [rad].
+    time : float
+        Session time [s]; rounded down to a whole tick.
+
+    Returns
+    -------
+    Servo
+        At rest; the first tick to come is the one after ``time``.
+    """
+    tick = _tick_at(time)
+    now = tick / TICKS_PER_SECOND
+    waypoint = np.concatenate([[now], arm.tool_pose(joints)[:3, 3]])
+    return Servo(tick, np.array(joints, dtype=np.float64), now - _MARGIN, waypoint[None], np.empty((0, 4)))
+
+
+def advance(servo: Servo, arm: Arm, targets: npt.ArrayLike, until: float) -> tuple[Servo, Motion]:
+    """Let the hand follow to a time.
+
+    Parameters
+    ----------
+    servo : Servo
+        As the last call left it.
+    arm : Arm
+        Moves by `Arm.step`.
+    targets : (E, 4) array
+        Events since the last call, in order: arrival time [s], position [m].
+        One later than ``until`` is kept for later; one earlier than a tick
+        already done is used from the next tick on. E may be 0.
+    until : float
+        Session time to come to [s]; the last tick done is not later.
+
+    Returns
+    -------
+    servo : Servo
+        For the next call.
+    motion : Motion
+        One row for every tick after ``servo.time`` up to ``until``; maybe none.
+
+    Raises
+    ------
+    ArmInputError
+        If a target is not finite.
+    """
+    events = np.reshape(np.asarray(targets, dtype=np.float64), (-1, 4))
+    if not np.isfinite(events).all():
+        raise ArmInputError("targets", "finite times and positions", f"{events[~np.isfinite(events)][0]}")
+    servo = replace(servo, pending=np.vstack([servo.pending, events]))
+    steps = [servo]
+    for _ in range(_tick_at(until) - servo.tick):
+        steps.append(_one_tick(steps[-1], arm))
+    return steps[-1], _motion(arm, steps[1:], len(servo.joints))
+
+
+def settle(servo: Servo, arm: Arm) -> tuple[Servo, Motion]:
+    """Let the hand arrive after the last event.
+
+    Parameters
+    ----------
+    servo : Servo
+        As the last call of `advance` left it.
+    arm : Arm
+        Moves by `Arm.step`.
+
+    Returns
+    -------
+    servo : Servo
+        At rest.
+    motion : Motion
+        Until the tool is within `ARRIVED` of the last target or has stopped,
+        at most `SETTLE_TIME` long.
+    """
+    steps = [servo]
+    last = np.vstack([servo.waypoints, servo.pending])[-1]
+    before = arm.tool_pose(servo.joints)[:3, 3]
+    for _ in range(round(SETTLE_TIME * TICKS_PER_SECOND)):
+        there = steps[-1].reference >= last[0] and len(steps[-1].pending) == 0
+        if there and math.dist(before, last[1:]) <= ARRIVED:
+            break
+        steps.append(_one_tick(steps[-1], arm))
+        after = arm.tool_pose(steps[-1].joints)[:3, 3]
+        if there and math.dist(after, before) <= STOPPED:
+            break
+        before = after
+    return steps[-1], _motion(arm, steps[1:], len(servo.joints))
+
+
+def return_home(
+    arm: Arm, start: FloatArray, goal: FloatArray, *, time: float = 0.0, duration: float = 1.0
+) -> Motion:
+    """Swing from one posture to another, smoothly and without recording.
+
+    Parameters
+    ----------
+    arm : Arm
+        Says where the tool is.
+    start, goal : (J,) array
+        Joints at the beginning and at the end [rad].
+    time : float
+        Session time of the beginning [s]; rounded down to a whole tick.
+    duration : float
+        Length of the motion [s]; rounded to whole ticks, at least one.
+
+    Returns
+    -------
+    Motion
+        Joints on the straight line, with the minimum-jerk time law; the first
+        row is one tick after ``time``, the last one is exactly ``goal``.
+
+    References
+    ----------
+    .. [1] T. Flash, N. Hogan. The coordination of arm movements: an
+       experimentally confirmed mathematical model. Journal of Neuroscience
+       5(7), 1985.
+    """
+    n_ticks = max(1, round(duration * TICKS_PER_SECOND))
+    ticks = np.arange(1, n_ticks + 1)
+    share = ticks / n_ticks
+    eased = share**3 * (10.0 - 15.0 * share + 6.0 * share**2)
+    begin_at, end_at = np.asarray(start, dtype=np.float64), np.asarray(goal, dtype=np.float64)
+    joints = (1.0 - eased)[:, None] * begin_at + eased[:, None] * end_at
+    return _tool_motion(arm, _tick_at(time) + ticks, joints)
+
+
+def _one_tick(servo: Servo, arm: Arm) -> Servo:
+    tick = servo.tick + 1
+    now = tick / TICKS_PER_SECOND
+    arrivals = np.maximum.accumulate(servo.pending[:, 0])
+    n_arrived = int(np.searchsorted(arrivals, now + _ROUNDING, side="right"))
+    reference, waypoints = servo.reference, servo.waypoints
+    for event in servo.pending[:n_arrived]:
+        reference, waypoints = _arrive(reference, waypoints, event)
+    reference = _proceed(reference, waypoints, now)
+    past = int(np.searchsorted(waypoints[:, 0], reference - _MEMORY, side="right"))
+    waypoints = waypoints[max(0, past - 1) :]
+    target = np.array([np.interp(reference, waypoints[:, 0], waypoints[:, axis]) for axis in (1, 2, 3)])
+    joints = arm.step(servo.joints, target, _TICK)
+    return Servo(tick, joints, reference, waypoints, servo.pending[n_arrived:])
+
+
+def _arrive(reference: float, waypoints: FloatArray, event: FloatArray) -> tuple[float, FloatArray]:
+    """Take one event in: it extends the line, or begins a new motion after a silence."""
+    last = waypoints[-1]
+    if event[0] - last[0] > LONGEST_GAP:
+        # The hand is at the last waypoint by now, so nothing moves when its time jumps.
+        rest = np.concatenate([[event[0] - USUAL_GAP], last[1:]])
+        return max(reference, float(rest[0]) - _MARGIN), np.vstack([waypoints, rest, event])
+    if event[0] <= last[0]:
+        # Two events in one instant: the later one holds.
+        return reference, np.vstack([waypoints[:-1], np.concatenate([last[:1], event[1:]])])
+    return reference, np.vstack([waypoints, event])
+
+
+def _proceed(reference: float, waypoints: FloatArray, now: float) -> float:
+    """Advance the hand's event time by a tick, but never past the last event."""
+    gaps = np.diff(waypoints[:, 0])
+    longest = float(gaps[gaps <= LONGEST_GAP].max(initial=USUAL_GAP))
+    behind = now - _TICK - reference > longest + _SLACK
+    return min(reference + _TICK * (CATCH_UP if behind else 1.0), float(waypoints[-1, 0]))
+
+
+def _motion(arm: Arm, steps: list[Servo], n_joints: int) -> Motion:
+    ticks = np.array([step.tick for step in steps], dtype=np.intp)
+    joints = np.array([step.joints for step in steps]).reshape(-1, n_joints)
+    return _tool_motion(arm, ticks, joints)
+
+
+def _tool_motion(arm: Arm, ticks: npt.NDArray[np.intp], joints: FloatArray) -> Motion:
+    positions = np.array([arm.tool_pose(configuration)[:3, 3] for configuration in joints])
+    return Motion(ticks / TICKS_PER_SECOND, joints, positions.reshape(-1, 3))
+
+
+def _tick_at(time: float) -> int:
+    return math.floor((time + _ROUNDING) * TICKS_PER_SECOND)
