@@ -1,0 +1,184 @@
+"""Demonstrations -> stations in correspondence.
+
+A `Clock` says for each demonstration which of its moments belongs to a common parameter in
+[0, 1]; stations are then spread evenly along the mean curve, so that a pause makes no cluster
+of stations and `times` keeps the taught speed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gc_core.arrays import FloatArray
+from gc_core.demonstration import Demonstration, Trimmed, sign_continuous
+from gc_core.errors import OpposedDemonstrationsError, UnknownOptionError
+from gc_core.frames import arc_length, smooth
+
+ALIGNMENTS = ("time", "arc_length")
+"""Ways to put demonstrations in correspondence."""
+
+GRIPPER_HYSTERESIS = 0.1
+"""The gripper changes when the share of demonstrations is this far beyond one half [-]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Alignment:
+    """Demonstrations sampled at the same stations."""
+
+    parameter: FloatArray
+    """(N,) common parameter at the stations, from 0 to 1 [-]."""
+    moments: FloatArray
+    """(n, N) time within each trimmed demonstration [s]."""
+    aligned: FloatArray
+    """(n, N, 3) places on the demonstrations [m]."""
+    directrix: FloatArray
+    """(N, 3) their mean, or the curve that was given [m]."""
+    times: FloatArray
+    """(N,) mean time law, strictly increasing from 0 [s]."""
+
+
+def align(
+    demonstrations: tuple[Trimmed, ...], stations: int, align_by: str, directrix: FloatArray | None
+) -> Alignment:
+    """Put demonstrations in correspondence at stations that are evenly spaced along their mean.
+
+    Parameters
+    ----------
+    demonstrations : tuple of Trimmed
+    stations : int
+        Number of stations N.
+    align_by : {"time", "arc_length"}
+        What the common parameter is: the part of the duration or of the path gone through.
+    directrix : (K, 3) array or None
+        Curve to use in place of the mean, evenly sampled in the common parameter [m].
+
+    Returns
+    -------
+    Alignment
+
+    Raises
+    ------
+    UnknownOptionError
+        If there is no such alignment.
+    OpposedDemonstrationsError
+        If the mean does not move.
+    """
+    if align_by not in ALIGNMENTS:
+        raise UnknownOptionError("align_by", align_by, ALIGNMENTS)
+    grid = np.linspace(0.0, 1.0, 4 * stations + 1)
+    clocks = [_clock(demonstration, align_by, grid) for demonstration in demonstrations]
+    if directrix is None:
+        mean = np.mean([_at(d, moments) for d, moments in zip(demonstrations, clocks, strict=True)], axis=0)
+    else:
+        mean = _sampled(directrix, grid)
+    parameter = _even_parameter(
+        mean, grid, stations, max(float(arc_length(d.positions)[-1]) for d in demonstrations)
+    )
+    moments = np.array([np.interp(parameter, grid, clock) for clock in clocks])
+    aligned = np.array([_at(d, m) for d, m in zip(demonstrations, moments, strict=True)])
+    middle = aligned.mean(axis=0) if directrix is None else _sampled(directrix, parameter)
+    return Alignment(parameter, moments, aligned, middle, _time_law(moments))
+
+
+def mean_orientations(
+    demonstrations: tuple[Demonstration, ...], trimmed: tuple[Trimmed, ...], moments: FloatArray
+) -> FloatArray | None:
+    """Mean rotation at each station.
+
+    Parameters
+    ----------
+    demonstrations, trimmed : tuples of length n
+    moments : (n, N) array
+        Time within each trimmed demonstration [s].
+
+    Returns
+    -------
+    (N, 4) array or None
+        Sign-continuous w, x, y, z; None unless every demonstration has orientations.
+
+    References
+    ----------
+    .. [1] F. L. Markley, Y. Cheng, J. L. Crassidis, Y. Oshman. Averaging quaternions.
+       Journal of Guidance, Control, and Dynamics 30(4), 2007. doi:10.2514/1.28949
+    """
+    sampled: list[FloatArray] = []
+    for demonstration, part, moment in zip(demonstrations, trimmed, moments, strict=True):
+        if demonstration.orientations is None:
+            return None
+        sample = np.interp(moment, part.times, part.kept)
+        values = _sampled_rows(demonstration.orientations, sample)
+        sampled.append(values / np.linalg.norm(values, axis=1, keepdims=True))
+    stacked = np.array(sampled)
+    _, vectors = np.linalg.eigh(np.einsum("jia,jib->iab", stacked, stacked))
+    mean = vectors[:, :, -1]
+    return sign_continuous(mean * (1.0 if mean[0] @ stacked[0, 0] >= 0.0 else -1.0))
+
+
+def majority_gripper(
+    demonstrations: tuple[Demonstration, ...], trimmed: tuple[Trimmed, ...], moments: FloatArray
+) -> FloatArray | None:
+    """Gripper state that most demonstrations agree on, without chatter.
+
+    Returns
+    -------
+    (N,) array or None
+        The lowest or the highest value of all demonstrations; None unless every one has a gripper.
+    """
+    channels: list[FloatArray] = []
+    for demonstration, part, moment in zip(demonstrations, trimmed, moments, strict=True):
+        if demonstration.gripper is None:
+            return None
+        channels.append(
+            demonstration.gripper[np.rint(np.interp(moment, part.times, part.kept)).astype(np.intp)]
+        )
+    values = np.array(channels)
+    low, high = float(values.min()), float(values.max())
+    share = (values > 0.5 * (low + high)).mean(axis=0)
+    decided = np.abs(share - 0.5) > GRIPPER_HYSTERESIS
+    decided[0] = True
+    latest = np.maximum.accumulate(np.where(decided, np.arange(len(share)), 0))
+    return np.where(share[latest] > 0.5, high, low)
+
+
+def _clock(demonstration: Trimmed, align_by: str, grid: FloatArray) -> FloatArray:
+    """Moments [s] of a demonstration at the common parameters."""
+    if align_by == "time":
+        return grid * demonstration.times[-1]
+    # A sensor's noise must not count as path while the hand pauses.
+    gone = arc_length(smooth(demonstration.positions, len(demonstration.positions) // 100))
+    gone = gone + 1e-9 * gone[-1] * np.linspace(0.0, 1.0, len(gone))
+    return np.interp(grid * gone[-1], gone, demonstration.times)
+
+
+def _at(demonstration: Trimmed, moments: FloatArray) -> FloatArray:
+    """Places (K, 3) on the demonstration's polyline at given moments (K,)."""
+    sample = np.interp(moments, demonstration.times, np.arange(len(demonstration.times), dtype=np.float64))
+    return _sampled_rows(demonstration.positions, sample)
+
+
+def _sampled_rows(rows: FloatArray, sample: FloatArray) -> FloatArray:
+    """Interpolate rows (T, d) at fractional row numbers (K,)."""
+    index = np.minimum(sample.astype(np.intp), len(rows) - 2)
+    part = (sample - index)[:, None]
+    return rows[index] * (1.0 - part) + rows[index + 1] * part
+
+
+def _sampled(curve: FloatArray, parameter: FloatArray) -> FloatArray:
+    return _sampled_rows(curve, parameter * (len(curve) - 1))
+
+
+def _even_parameter(mean: FloatArray, grid: FloatArray, stations: int, longest: float) -> FloatArray:
+    """Parameters (N,) at which the mean curve has gone through equal lengths."""
+    gone = arc_length(smooth(mean, len(mean) // 50))
+    if gone[-1] <= 1e-3 * longest:
+        raise OpposedDemonstrationsError(float(gone[-1]))
+    gone = gone + 1e-6 * gone[-1] * grid
+    return np.interp(np.linspace(0.0, gone[-1], stations), gone, grid)
+
+
+def _time_law(moments: FloatArray) -> FloatArray:
+    """Mean time (N,) from the start [s], strictly increasing."""
+    mean = (moments - moments[:, :1]).mean(axis=0)
+    return mean + 1e-9 * max(mean[-1], 1e-6) * np.arange(len(mean))

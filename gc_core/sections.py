@@ -1,0 +1,193 @@
+"""Cross-sections: the points where the demonstrations cross a plane -> a radius function.
+
+Every kind returns a polygon that holds all its points and, with at least the minimum half-width,
+its centre. Kinds are functions `(points (N, n, 2), count, half_width) -> radii (N, count)`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from gc_core.arrays import FloatArray, IntArray
+from gc_core.errors import UnknownOptionError
+from gc_core.radius import loop_radii, slope_limited, vertex_angles, widened_to_hold
+
+SUPPORT_DIRECTIONS = 32
+"""Directions in which the outermost points are looked for."""
+
+CURVE_SAMPLES = 72
+"""Samples of a closed spline, shared by its pieces."""
+
+ELLIPSE_ROUNDS = 12
+"""Rounds towards the smallest ellipse; the last step scales it so that it holds all points."""
+
+
+def section_radii(
+    points: FloatArray, length: FloatArray, kind: str, count: int, half_width: float
+) -> FloatArray:
+    """Build the sections of one tube.
+
+    Parameters
+    ----------
+    points : (N, n, 2) array
+        Effective points relative to the centres, in the sections' axes [m].
+    length : (N,) array
+        Arc length at the sections [m].
+    kind : str
+        One of `SECTIONS`.
+    count : int
+        Number of vertices of each section.
+    half_width : float
+        Least distance of the boundary from the centre, and of a thin section's sides from its axis [m].
+
+    Returns
+    -------
+    (N, count) array
+        Radii; every point lies inside its polygon, and the change along the curve is limited [m].
+
+    Raises
+    ------
+    UnknownOptionError
+        If there is no such kind.
+    """
+    build = SECTIONS.get(kind)
+    if build is None:
+        raise UnknownOptionError("section", kind, SECTIONS)
+    radii = np.maximum(build(points, count, half_width), half_width)
+    return slope_limited(widened_to_hold(radii, points), length)
+
+
+def circle(points: FloatArray, count: int, half_width: float) -> FloatArray:
+    """Circle about the centre through the farthest point, circumscribed by the polygon."""
+    radius = np.maximum(np.sqrt(np.einsum("ijk,ijk->ij", points, points).max(axis=1)), half_width)
+    return np.repeat(radius[:, None] / np.cos(np.pi / count), count, axis=1)
+
+
+def ellipse(points: FloatArray, count: int, half_width: float) -> FloatArray:
+    """Smallest ellipse about the centre that holds all points (to within a few per cent of area).
+
+    References
+    ----------
+    .. [1] L. G. Khachiyan. Rounding of polytopes in the real number model of computation.
+       Mathematics of Operations Research 21(2), 1996.
+    """
+    x, y = points[..., 0], points[..., 1]
+    weights = np.full(x.shape, 1.0 / x.shape[1])
+    thin = half_width**2
+    for _ in range(ELLIPSE_ROUNDS):
+        xx, xy, yy = (
+            (weights * x * x).sum(1) + thin,
+            (weights * x * y).sum(1),
+            (weights * y * y).sum(1) + thin,
+        )
+        det = (xx * yy - xy * xy)[:, None]
+        spread = (yy[:, None] * x * x - 2.0 * xy[:, None] * x * y + xx[:, None] * y * y) / det
+        weights = weights * np.maximum(spread, 1e-12)
+        weights = weights / weights.sum(axis=1, keepdims=True)
+    scale = np.maximum(spread.max(axis=1), 1.0)[:, None]
+    angles = vertex_angles(count)
+    cos, sin = np.cos(angles), np.sin(angles)
+    form = (yy[:, None] * cos**2 - 2.0 * xy[:, None] * cos * sin + xx[:, None] * sin**2) / (det * scale)
+    return 1.0 / np.sqrt(form)
+
+
+def hull(points: FloatArray, count: int, half_width: float) -> FloatArray:
+    """Convex hull of the points, thickened where it is thinner than twice the half-width."""
+    corners, _ = _corners(points)
+    return loop_radii(_thickened(points, corners, half_width), count)
+
+
+def closed_spline(points: FloatArray, count: int, half_width: float) -> FloatArray:
+    """Closed cubic spline through the corners of the hull, with centripetal knots; never inside the hull.
+
+    References
+    ----------
+    .. [1] S. R. Ahmadzadeh, M. A. Rana, S. Chernova. Generalized Cylinders for Learning, Reproduction,
+       Generalization, and Refinement of Robot Skills. RSS 2017. (Its "natural" ends would leave a corner.)
+    .. [2] E. T. Y. Lee. Choosing nodes in parametric curve interpolation. CAD 21(6), 1989.
+    """
+    corners, n_corners = _corners(points)
+    radii = loop_radii(_thickened(points, corners, half_width), count)
+    for n in np.unique(n_corners[n_corners > 2]):
+        rows = np.flatnonzero(n_corners == n)
+        loops = np.take_along_axis(points[rows], corners[rows, :n, None], axis=1)
+        radii[rows] = np.maximum(radii[rows], loop_radii(_spline_loops(loops), count))
+    return radii
+
+
+def _corners(points: FloatArray) -> tuple[IntArray, IntArray]:
+    """Outermost points in order round the hull.
+
+    Returns
+    -------
+    corners : (N, D) integer array
+        Corner numbers; the first `n_corners` of a row differ, the rest repeat the first.
+    n_corners : (N,) integer array
+    """
+    angles = vertex_angles(SUPPORT_DIRECTIONS)
+    directions = np.stack((np.cos(angles), np.sin(angles)))
+    outermost = np.argmax(points @ directions, axis=1)
+    fresh = outermost != np.roll(outermost, 1, axis=1)
+    n_corners = np.maximum(fresh.sum(axis=1), 1)
+    order = np.argsort(~fresh, axis=1, kind="stable")
+    corners = np.take_along_axis(outermost, order, axis=1)
+    beyond = np.arange(SUPPORT_DIRECTIONS)[None, :] >= n_corners[:, None]
+    return np.where(beyond, corners[:, :1], corners), n_corners
+
+
+def _thickened(points: FloatArray, corners: IntArray, half_width: float) -> FloatArray:
+    """Hull loops (N, P, 2); those thinner than the half-width to either side are rounded out to it."""
+    angles = vertex_angles(SUPPORT_DIRECTIONS)
+    directions = np.stack((np.cos(angles), np.sin(angles)), axis=1)
+    support = (points @ directions.T).max(axis=1)
+    width = support + np.roll(support, SUPPORT_DIRECTIONS // 2, axis=1)
+    lacking = np.maximum(half_width - 0.5 * width.min(axis=1), 0.0)
+    if not lacking.any():
+        most = int((corners != corners[:, :1]).sum(axis=1).max()) + 1
+        return np.take_along_axis(points, corners[:, :most, None], axis=1)
+    outermost = np.argmax(points @ directions.T, axis=1)
+    loops = np.take_along_axis(points, outermost[:, :, None], axis=1)
+    # The polygon of directions lies inside the disc that it stands for.
+    grown = lacking / np.cos(np.pi / SUPPORT_DIRECTIONS)
+    return loops + grown[:, None, None] * directions[None, :, :]
+
+
+def _spline_loops(corners: FloatArray) -> FloatArray:
+    """Sample the periodic centripetal cubic through corners (K, n, 2): (K, P, 2)."""
+    following = np.roll(corners, -1, axis=1)
+    chord = following - corners
+    step = np.sqrt(np.sqrt(np.einsum("ijk,ijk->ij", chord, chord)))
+    step = np.maximum(step, 1e-3 * step.max(axis=1, keepdims=True))
+    bend = _periodic_curvatures(chord / step[..., None], step)
+    per_piece = max(4, CURVE_SAMPLES // corners.shape[1])
+    part = (np.arange(per_piece) / per_piece)[None, None, :, None]
+    rest = 1.0 - part
+    square = (step**2)[:, :, None, None] / 6.0
+    straight = rest * corners[:, :, None, :] + part * following[:, :, None, :]
+    curved = (rest**3 - rest) * bend[:, :, None, :] + (part**3 - part) * np.roll(bend, -1, axis=1)[
+        :, :, None, :
+    ]
+    return (straight + square * curved).reshape(len(corners), -1, 2)
+
+
+def _periodic_curvatures(slope: FloatArray, step: FloatArray) -> FloatArray:
+    """Second derivatives (K, n, 2) at the knots of periodic cubics with piece slopes (K, n, 2) and steps (K, n)."""
+    n = step.shape[1]
+    here = np.arange(n)
+    before = np.roll(step, 1, axis=1)
+    matrix = np.zeros((len(step), n, n))
+    matrix[:, here, here] = 2.0 * (step + before)
+    matrix[:, here, (here + 1) % n] += step
+    matrix[:, here, (here - 1) % n] += before
+    return np.linalg.solve(matrix, 6.0 * (slope - np.roll(slope, 1, axis=1)))
+
+
+SECTIONS: dict[str, Callable[[FloatArray, int, float], FloatArray]] = {
+    "circle": circle,
+    "ellipse": ellipse,
+    "closed_spline": closed_spline,
+    "hull": hull,
+}
+"""Section kinds by name."""
