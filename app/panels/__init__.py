@@ -1,0 +1,109 @@
+"""Everything around the 3-D view: composition only; each part knows the `State` and the `Actions`.
+
+Right: the skill and the tabs Teach, Try, Move, Fix. Left: the lesson and the slice at the
+playhead. Floating at the bottom: the timeline.
+"""
+
+from collections.abc import Sequence
+from typing import Final, Protocol
+
+import viser
+
+from app.actions import Actions
+from app.panels.demonstrations import DemonstrationsPanel
+from app.panels.encoding import EncodingPanel
+from app.panels.hand import HandPanel
+from app.panels.header import HeaderPanel
+from app.panels.keys import Keys
+from app.panels.landmarks import LandmarksPanel
+from app.panels.lesson import LessonPanel
+from app.panels.offer import OfferPanel
+from app.panels.rules import RulesPanel
+from app.panels.slice import SlicePanel
+from app.panels.starts import StartsPanel
+from app.panels.status import StatusPanel
+from app.panels.timeline import TimelinePanel
+from app.store import State
+
+MAIN_WIDTH: Final = 320
+SIDE_WIDTH: Final = 270
+TIMELINE_WIDTH: Final = 440
+GAP: Final = 14
+"""Between the timeline and the edges of the 3-D view [px]."""
+
+
+class Panel(Protocol):
+    """One part of the page."""
+
+    def draw(self, state: State) -> None:
+        """Show the state, sending only what differs."""
+        ...
+
+
+class Panels:
+    """All panels of one tab of the browser.
+
+    Parameters
+    ----------
+    gui : viser.GuiApi
+        Of the client, so that nobody else sees or uses them.
+    actions : Actions
+        Where everything that a person does is posted.
+    skills : sequence of (name, title)
+        Built-in skills to choose from.
+    """
+
+    def __init__(self, gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]) -> None:
+        self._parts: tuple[Panel, ...] = (
+            Keys(gui, actions),
+            *_main(gui, actions, skills),
+            *_side(gui, actions),
+            _timeline(gui, actions),
+        )
+
+    def draw(self, state: State) -> None:
+        """Show a state; what it shows already costs a comparison and sends nothing."""
+        for part in self._parts:
+            part.draw(state)
+
+
+def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]) -> tuple[Panel, ...]:
+    gui.main_panel.dock_right()
+    gui.main_panel.set_width(MAIN_WIDTH)
+    header = HeaderPanel(gui, actions, skills)
+    tabs = gui.add_tab_group()
+    with tabs.add_tab("Teach", viser.Icon.HAND_GRAB):
+        teach: tuple[Panel, ...] = (
+            StatusPanel(gui),
+            DemonstrationsPanel(gui, actions),
+            OfferPanel(gui, actions),
+            HandPanel(gui, actions),
+            EncodingPanel(gui, actions),
+        )
+    with tabs.add_tab("Try", viser.Icon.PLAYER_PLAY):
+        starts = StartsPanel(gui, actions)
+    with tabs.add_tab("Move", viser.Icon.MAP_PIN):
+        landmarks = LandmarksPanel(gui, actions)
+    with tabs.add_tab("Fix", viser.Icon.TOOL):
+        rules = RulesPanel(gui, actions)
+    return (header, *teach, starts, landmarks, rules)
+
+
+def _side(gui: viser.GuiApi, actions: Actions) -> tuple[Panel, ...]:
+    upper, lower = gui.add_panel(), gui.add_panel()
+    with upper.add_tab("Lesson", viser.Icon.SCHOOL):
+        lesson = LessonPanel(gui, actions)
+    with lower.add_tab("Slice (cross-section)", viser.Icon.CIRCLE_DASHED):
+        section = SlicePanel(gui)
+    upper.dock_left()
+    upper.set_width(SIDE_WIDTH)
+    lower.dock_below(upper)
+    return (lesson, section)
+
+
+def _timeline(gui: viser.GuiApi, actions: Actions) -> Panel:
+    panel = gui.add_panel()
+    with panel.add_tab("Timeline", viser.Icon.CLOCK_PLAY):
+        timeline = TimelinePanel(gui, actions)
+    panel.float(x=GAP, y=-GAP, width=TIMELINE_WIDTH)
+    return timeline

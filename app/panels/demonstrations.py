@@ -1,0 +1,136 @@
+"""The list of demonstrations: learn from it or not, rename, trim, duplicate, delete."""
+
+from collections.abc import Callable
+from functools import partial
+
+import viser
+
+from app import edits
+from app.actions import Actions
+from app.binding import Binding, Rows, anything, assign, on_choice
+from app.document import Document, Shown
+from app.panels import words
+from app.store import State
+
+TRIM, COPY, DELETE = "Trim", "Duplicate", "Delete"
+STEP = 0.01
+"""Of the times to trim at [s]."""
+
+
+class DemonstrationsPanel:
+    """One folder a demonstration; folders are reused."""
+
+    def __init__(self, gui: viser.GuiApi, actions: Actions) -> None:
+        self._rows = Rows(gui.add_folder(None), partial(DemonstrationRow, gui, actions))
+
+    def draw(self, state: State) -> None:
+        """Follow the list."""
+        for row in self._rows.fit(len(state.document.demonstrations)):
+            row.draw(state)
+
+
+class DemonstrationRow:
+    """One demonstration."""
+
+    def __init__(self, gui: viser.GuiApi, actions: Actions, index: int) -> None:
+        self._actions, self._index = actions, index
+        self._shown: Shown | None = None
+        self._duration: float = 0.0
+        self._keep = (0.0, 0.0)
+        self._folder = gui.add_folder(f"Demonstration {index + 1}", expand_by_default=False)
+        with self._folder:
+            self._use = self._add_use(gui)
+            self._name = self._add_name(gui)
+            self._part = gui.add_multi_slider(
+                "Keep [s]", 0.0, 1.0, STEP, (0.0, 1.0), hint="The part to keep; then press Trim."
+            )
+            self._kept: Binding[tuple[float, ...]] = Binding(
+                self._part, read=lambda _: self._keep, write=self._choose, accept=self._within, typed=True
+            )
+            group = gui.add_button_group("", (TRIM, COPY, DELETE))
+            on_choice(group, lambda place: (self._trim, self._copy, self._delete)[place]())
+
+    def show(self, visible: bool) -> None:
+        """Show or hide it."""
+        assign(self._folder, visible=visible)
+
+    def draw(self, state: State) -> None:
+        """Show the demonstration at this place of the list."""
+        shown = state.document.demonstrations[self._index]
+        if shown is not self._shown:
+            self._show_facts(shown)
+        self._use.draw(state)
+        self._name.draw(state)
+        self._kept.draw(state)
+
+    def _show_facts(self, shown: Shown) -> None:
+        former, self._shown = self._shown, shown
+        demonstration = shown.demonstration
+        duration: float = max(round(float(demonstration.times[-1]), 2), STEP)
+        if former is None or duration != self._duration:
+            self._duration, self._keep = duration, (0.0, duration)
+            assign(self._part, max=duration)
+        muted = " · muted" if shown.muted else ""
+        assign(self._folder, label=f"{demonstration.name} · {words.seconds(duration)}{muted}")
+
+    def _add_use(self, gui: viser.GuiApi) -> Binding[bool]:
+        widget = gui.add_checkbox(
+            "Learn from it", True, hint="Without the tick it is muted: kept and drawn, but not learned from."
+        )
+
+        def write(used: bool) -> None:
+            change = partial(edits.mute_demonstration, index=self._index, muted=not used)
+            self._actions.edit(change, f"unmute {self._title}" if used else f"mute {self._title}")
+
+        return Binding(
+            widget,
+            read=lambda state: not state.document.demonstrations[self._index].muted,
+            write=write,
+            accept=anything,
+        )
+
+    def _add_name(self, gui: viser.GuiApi) -> Binding[str]:
+        def write(name: str) -> None:
+            change = partial(edits.rename_demonstration, index=self._index, name=name)
+            self._actions.edit(change, "rename a demonstration", f"rename demonstration {self._index}")
+
+        return Binding(
+            gui.add_text("Name", ""),
+            read=lambda state: state.document.demonstrations[self._index].demonstration.name,
+            write=write,
+            accept=lambda name: bool(name.strip()),
+            typed=True,
+        )
+
+    @property
+    def _title(self) -> str:
+        return "" if self._shown is None else self._shown.demonstration.name
+
+    def _within(self, keep: tuple[float, ...]) -> bool:
+        return len(keep) == 2 and 0.0 <= keep[0] <= keep[1] <= self._duration + 1e-9
+
+    def _choose(self, keep: tuple[float, ...]) -> None:
+        self._keep = (keep[0], keep[1])
+
+    def _trim(self) -> None:
+        start, stop = self._keep
+        # The slider's end is rounded: the last sample must not fall off when only the beginning is cut.
+        stop = float("inf") if stop >= self._duration else stop
+        change = partial(edits.trim_demonstration, index=self._index, start=start, stop=stop)
+        self._actions.edit(change, f"trim {self._title}")
+
+    def _copy(self) -> None:
+        self._actions.edit(
+            partial(_at, self._shown, edits.duplicate_demonstration), f"duplicate {self._title}"
+        )
+
+    def _delete(self) -> None:
+        self._actions.edit(partial(_at, self._shown, edits.delete_demonstration), f"delete {self._title}")
+
+
+def _at(shown: Shown | None, change: Callable[[Document, int], Document], document: Document) -> Document:
+    """Change the demonstration that was shown, wherever it is by now."""
+    for index, candidate in enumerate(document.demonstrations):
+        if candidate is shown:
+            return change(document, index)
+    return document

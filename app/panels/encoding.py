@@ -1,0 +1,113 @@
+"""The shape of the slices, and what lies under the hood."""
+
+from collections.abc import Mapping
+from functools import partial
+from typing import Final
+
+import viser
+
+from app import edits
+from app.actions import Actions
+from app.binding import Binding, Changed, anything, assign, on_press, one_of
+from app.document import Alignment, SectionKind
+from app.model import Model
+from app.panels import words
+from app.store import State
+
+PICTURES: Final[Mapping[SectionKind, tuple[str, viser.IconName]]] = {
+    "circle": ("Circle", viser.Icon.CIRCLE),
+    "ellipse": ("Ellipse", viser.Icon.OVAL),
+    "closed_spline": ("Free shape (closed spline)", viser.Icon.EGG),
+}
+ALIGNMENT_WORDS: Final[Mapping[str, Alignment]] = {"way (arc length)": "arc_length", "time": "time"}
+CHOSEN: Final = (31, 63, 168)
+OTHER: Final = "gray"
+
+
+class EncodingPanel:
+    """Three pictures for the section kind; alignment, stations and facts in a folder."""
+
+    def __init__(self, gui: viser.GuiApi, actions: Actions) -> None:
+        gui.add_html(words.note("Shape of the slices (cross-sections)", strong=True))
+        self._kinds: Mapping[SectionKind, viser.GuiButtonHandle] = {
+            kind: gui.add_button(label, icon=icon) for kind, (label, icon) in PICTURES.items()
+        }
+        for kind, button in self._kinds.items():
+            on_press(button, partial(_choose, actions, kind))
+        with gui.add_folder("Under the hood", expand_by_default=False):
+            self._bindings = (
+                _add_alignment(gui, actions),
+                _add_stations(gui, actions),
+                *_add_views(gui, actions),
+            )
+            self._facts = gui.add_html("")
+        self._changed = Changed()
+
+    def draw(self, state: State) -> None:
+        """Mark the chosen kind and state the facts."""
+        chosen = state.document.settings.section
+        for kind, button in self._kinds.items():
+            assign(button, color=CHOSEN if kind == chosen else OTHER)
+        for binding in self._bindings:
+            binding.draw(state)
+        if self._changed(state.model):
+            assign(self._facts, content=words.note(words.escape(facts(state.model))))
+
+
+def facts(model: Model) -> str:
+    """Say how large and how clean the tube (generalized cylinder) is."""
+    cylinder = model.cylinder
+    if cylinder is None:
+        return "There is no tube (generalized cylinder) yet."
+    stations, per_station = cylinder.radii.shape
+    return (
+        f"Middle line (directrix) of {words.cm(float(cylinder.arc_length[-1]))} with {stations} slices of "
+        f"{per_station} points; mean time {words.seconds(float(cylinder.times[-1]))}; volume "
+        f"{1e3 * cylinder.volume:.2g} l. "
+    ) + " ".join(cylinder.diagnostics.sentences())
+
+
+def _choose(actions: Actions, kind: SectionKind) -> None:
+    actions.edit(partial(edits.set_section, section=kind), "choose the shape of the slices")
+
+
+def _add_alignment(gui: viser.GuiApi, actions: Actions) -> Binding[str]:
+    shown = {alignment: text for text, alignment in ALIGNMENT_WORDS.items()}
+    return Binding(
+        gui.add_dropdown(
+            "Match by",
+            tuple(ALIGNMENT_WORDS),
+            hint="How the demonstrations are brought together (alignment).",
+        ),
+        read=lambda state: shown[state.document.settings.align_by],
+        write=lambda text: actions.edit(
+            partial(edits.set_align_by, align_by=ALIGNMENT_WORDS[text]), "change the alignment"
+        ),
+        accept=one_of(ALIGNMENT_WORDS),
+    )
+
+
+def _add_stations(gui: viser.GuiApi, actions: Actions) -> Binding[int]:
+    return Binding(
+        gui.add_slider("Slices", 20, 400, 10, 200, hint="How many slices (stations) the tube is made of."),
+        read=lambda state: state.document.settings.stations,
+        write=lambda n: actions.edit(
+            partial(edits.set_stations, stations=n), "change the number of slices", "stations"
+        ),
+        accept=lambda n: 20 <= n <= 400,
+        typed=True,
+    )
+
+
+def _add_views(gui: viser.GuiApi, actions: Actions) -> tuple[Binding[bool], ...]:
+    shown = {"show_tube": "Show tube", "show_demonstrations": "Show demos", "show_reproductions": "Show runs"}
+
+    def bind(field: str, label: str) -> Binding[bool]:
+        return Binding(
+            gui.add_checkbox(label, True),
+            read=lambda state: bool(getattr(state.view, field)),
+            write=lambda value: actions.look(**{field: value}),
+            accept=anything,
+        )
+
+    return tuple(bind(field, label) for field, label in shown.items())

@@ -1,0 +1,59 @@
+"""The hand without a mouse: where it is, one centimetre this way or that, open or closed."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Final
+
+import numpy as np
+import viser
+
+from app.actions import Actions
+from app.binding import Binding, anything, on_choice
+from app.panels.position_field import PositionField
+from app.store import State
+
+JOG: Final = 0.01
+"""One press of a button [m]."""
+BUTTONS: Final = ("− x", "+ x", "− y", "+ y", "− z", "+ z")
+
+
+class HandPanel:
+    """Moves the hand, and with it the start of the next demonstration, without recording."""
+
+    def __init__(self, gui: viser.GuiApi, actions: Actions) -> None:
+        self._actions = actions
+        self._at = np.zeros(3)
+        self._position = PositionField(
+            gui,
+            "Hand [cm]",
+            read=lambda state: state.hand.position,
+            write=actions.move_hand,
+            hint="x, y, z. Moves the hand without recording; the next demonstration begins there.",
+        )
+        group = gui.add_button_group("by 1 cm", BUTTONS, hint="Moves the hand without recording.")
+        on_choice(group, self._jog)
+        self._gripper = _gripper(gui, partial(_look, actions))
+
+    def draw(self, state: State) -> None:
+        """Show where the hand is."""
+        self._at = state.hand.position
+        self._position.draw(state)
+        self._gripper.draw(state)
+
+    def _jog(self, place: int) -> None:
+        step = np.zeros(3)
+        step[place // 2] = JOG if place % 2 else -JOG
+        self._actions.move_hand(self._at + step)
+
+
+def _gripper(gui: viser.GuiApi, write: Callable[[bool], None]) -> Binding[bool]:
+    return Binding(
+        gui.add_checkbox("Hand closed", False, hint="Key G. Also works while you pull the hand."),
+        read=lambda state: state.view.gripper_closed,
+        write=write,
+        accept=anything,
+    )
+
+
+def _look(actions: Actions, closed: bool) -> None:
+    actions.look(gripper_closed=closed)

@@ -1,0 +1,39 @@
+"""Keyboard: undo, redo, play and pause, open and close the hand."""
+
+import viser
+
+from app.actions import Actions
+from app.binding import assign, on_command
+from app.store import State
+
+
+class Keys:
+    """The commands, also listed in the palette that Ctrl/Cmd+K opens."""
+
+    def __init__(self, gui: viser.GuiApi, actions: Actions) -> None:
+        self._actions = actions
+        self._state: State | None = None
+        self._undo = gui.add_command("Undo", hotkey="Z", modifier="cmd/ctrl", icon=viser.Icon.ARROW_BACK_UP)
+        self._redo = gui.add_command(
+            "Redo", hotkey="Z", modifier="cmd/ctrl+shift", icon=viser.Icon.ARROW_FORWARD_UP
+        )
+        play = gui.add_command("Play or pause", hotkey="space", icon=viser.Icon.PLAYER_PLAY)
+        gripper = gui.add_command("Open or close the hand", hotkey="G", icon=viser.Icon.HAND_GRAB)
+        on_command(self._undo, actions.undo)
+        on_command(self._redo, actions.redo)
+        on_command(play, self._toggle_play)
+        on_command(gripper, self._toggle_gripper)
+
+    def draw(self, state: State) -> None:
+        """Name what undo and redo would do."""
+        self._state = state
+        assign(self._undo, description=state.undo_name)
+        assign(self._redo, description=state.redo_name)
+
+    def _toggle_play(self) -> None:
+        if self._state is not None:
+            self._actions.play(not self._state.playback.playing)
+
+    def _toggle_gripper(self) -> None:
+        if self._state is not None:
+            self._actions.look(gripper_closed=not self._state.view.gripper_closed)

@@ -1,0 +1,85 @@
+"""The timeline: play, scrub, speed, loop, and which run is played."""
+
+from typing import Final
+
+import viser
+
+from app.actions import Actions
+from app.binding import Binding, assign, on_choice
+from app.player import SPEEDS
+from app.store import State
+
+SPEED_WORDS: Final = ("¼×", "½×", "1×", "2×")
+PLAY, PAUSE = "Play", "Pause"
+LOOP: Final = "Loop"
+STEP: Final = 0.01
+"""Of the playhead [s]."""
+CHOSEN: Final = "✓ "
+
+
+class TimelinePanel:
+    """One playhead for the arm, the scene and the slice."""
+
+    def __init__(self, gui: viser.GuiApi, actions: Actions) -> None:
+        self._actions = actions
+        self._state: State | None = None
+        self._duration = 1.0
+        self._slider = gui.add_slider("Time [s]", 0.0, 1.0, STEP, 0.0)
+        self._time: Binding[float] = Binding(
+            self._slider,
+            read=lambda state: min(round(state.playback.time, 2), self._duration),
+            write=actions.seek,
+            accept=lambda time: 0.0 <= time <= self._duration,
+            typed=True,
+        )
+        self._buttons = gui.add_button_group(
+            "Play", (PLAY, *SPEED_WORDS, LOOP), hint="The space bar plays and pauses, too."
+        )
+        on_choice(self._buttons, self._press)
+        self._runs = gui.add_button_group(
+            "Run", ("1",), visible=False, hint="Which run (reproduction) the arm plays."
+        )
+        on_choice(self._runs, actions.choose_run)
+
+    def draw(self, state: State) -> None:
+        """Follow the playhead."""
+        self._state = state
+        playback, view = state.playback, state.view
+        duration = round(playback.duration, 2) or 1.0
+        if duration != self._duration:
+            self._duration = duration
+            assign(self._slider, max=duration)
+        self._time.draw(state)
+        assign(self._slider, disabled=playback.duration == 0.0)
+        assign(self._buttons, options=_options(playback.playing, view.speed, view.loop))
+        runs = len(state.model.runs)
+        assign(self._runs, visible=runs > 1)
+        if runs > 1:
+            assign(self._runs, options=_marked(tuple(str(i + 1) for i in range(runs)), playback.run))
+
+    def toggle(self) -> None:
+        """Play or pause, whatever is not the case."""
+        if self._state is not None:
+            self._actions.play(not self._state.playback.playing)
+
+    def _press(self, place: int) -> None:
+        if place == 0:
+            self.toggle()
+        elif place <= len(SPEEDS):
+            self._actions.look(speed=SPEEDS[place - 1])
+        elif self._state is not None:
+            self._actions.look(loop=not self._state.view.loop)
+
+
+def _options(playing: bool, speed: float, loop: bool) -> tuple[str, ...]:
+    chosen = SPEEDS.index(speed) if speed in SPEEDS else -1
+    return (
+        PAUSE if playing else PLAY,
+        *_marked(SPEED_WORDS, chosen),
+        *_marked((LOOP,), 0 if loop else -1),
+    )
+
+
+def _marked(options: tuple[str, ...], chosen: int) -> tuple[str, ...]:
+    """A tick before the chosen option: viser shows no chosen button in a row."""
+    return tuple(CHOSEN + option if i == chosen else option for i, option in enumerate(options))

@@ -1,0 +1,95 @@
+"""Numbers and causes in a teacher's words: centimetres, seconds, percent, whole sentences."""
+
+from html import escape as _escape
+
+import numpy as np
+
+from app.document import FloatArray
+from app.model import Anchor, Model
+
+
+def escape(text: str) -> str:
+    """Make a person's text harmless inside HTML."""
+    return _escape(" ".join(text.split()))
+
+
+def note(text: str, *, strong: bool = False, color: str = "inherit") -> str:
+    """One paragraph of small print as HTML; ``text`` is HTML already."""
+    weight = "600" if strong else "400"
+    return (
+        '<div style="padding:0 0.75rem 0.5rem;font-size:0.8rem;line-height:1.4;'
+        f'font-weight:{weight};color:{color};overflow-wrap:anywhere">{text}</div>'
+    )
+
+
+def cm(length: float) -> str:
+    """A length [m] in centimetres: one decimal below 10 cm."""
+    value = 100.0 * length
+    return f"{value:.1f} cm" if abs(value) < 9.95 else f"{value:.0f} cm"
+
+
+def seconds(time: float) -> str:
+    """A time [s] with one decimal."""
+    return f"{time:.1f} s"
+
+
+def count(number: int, noun: str) -> str:
+    """A number with its noun: 1 demonstration, 2 demonstrations."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def in_cm(position: FloatArray) -> tuple[float, float, float]:
+    """(3,) position [m] in centimetres with one decimal, as number fields show it."""
+    x, y, z = (round(100.0 * float(value), 1) + 0.0 for value in position)
+    return x, y, z
+
+
+def ratio(eta: float) -> str:
+    """How far off-centre, in words."""
+    percent = 100.0 * eta
+    if percent < 0.5:
+        return "on the middle line"
+    if percent <= 100.5:
+        return f"{percent:.0f} % of the way from the middle line to the edge"
+    return f"outside the tube, at {percent:.0f} % of the way to its edge"
+
+
+def distance(anchor: Anchor) -> float:
+    """How far a landmark was moved [m]."""
+    return float(np.linalg.norm(anchor.now - anchor.taught))
+
+
+def moved(anchor: Anchor) -> str:
+    """Say whether a landmark was moved, and how far."""
+    length = distance(anchor)
+    return f"moved by {cm(length)}" if length > 5e-4 else "where it was taught"
+
+
+def bending(model: Model) -> str:
+    """Say how the tube follows its landmarks."""
+    anchors = model.anchors
+    names = [anchor.name for anchor in anchors if distance(anchor) > 5e-4]
+    if not names:
+        return "Nothing was moved: the tube is as it was taught. Drag the goal, or type where it should be."
+    listed = " and ".join(names) if len(names) < 3 else ", ".join(names[:-1]) + " and " + names[-1]
+    how = (
+        ""
+        if model.registration is None
+        else f" How the tube follows (generalization): {model.registration.case}."
+    )
+    return f"You moved {listed}; nothing was taught again.{how}"
+
+
+def taught(model: Model) -> str:
+    """Say what was learned, or why nothing was."""
+    if model.problem is not None:
+        return model.problem
+    shown, used = len(model.source.demonstrations), len(model.demonstrations)
+    if not shown:
+        return "Nothing was shown yet. Hold the hand, pull it along the motion, and let go."
+    if not used:
+        return "All demonstrations are muted. Learn from at least one of them."
+    if used == 1:
+        return "Shown once. Show it again a little differently, and the tube learns what may vary."
+    from_all = "" if used == shown else f" of {shown}"
+    return f"Learned from {used}{from_all} demonstrations. Wide: free. Narrow: must be exact."
