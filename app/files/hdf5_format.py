@@ -1,0 +1,82 @@
+"""HDF5 recordings of the canal-surface lab: one group a demonstration.
+
+``<demo>/tf_info/pos_rot_data`` (7, T) holds x, y, z [m] and a quaternion x, y, z, w;
+``<demo>/time_info/time_data`` (2, T) holds seconds and nanoseconds.
+"""
+
+from __future__ import annotations
+
+import io
+from typing import Any, Final, cast
+
+import h5py  # pyright: ignore[reportMissingTypeStubs] - it has none
+import numpy as np
+
+from app.document import FloatArray
+from app.files.errors import FileError, UnreadableError
+from app.files.recording import Contents, Recording, check_count, check_length
+
+POSES: Final = "tf_info/pos_rot_data"
+TIMES: Final = "time_info/time_data"
+_h5: Any = cast("Any", h5py)
+_REMEDY: Final = "Export the recording as CSV: t,x,y,z."
+
+
+def parse_hdf5(name: str, content: bytes) -> Contents:
+    """Read every demonstration of a file.
+
+    Raises
+    ------
+    FileError
+        If the file is damaged, too large, or laid out in another way.
+    """
+    try:
+        with _h5.File(io.BytesIO(content), "r") as file:
+            return Contents(_recordings(name, file), unit="m")
+    except FileError:
+        raise
+    # h5py raises these for damaged input; KeyError and RuntimeError for broken links and filters.
+    except (OSError, KeyError, RuntimeError, ValueError, TypeError, OverflowError, MemoryError) as error:
+        raise UnreadableError(name, "it is damaged or no HDF5 file", _REMEDY) from error
+
+
+def _recordings(name: str, file: Any) -> tuple[Recording, ...]:
+    keys: list[str] = list(file)
+    # A link may lead into another file of this machine.
+    own = [key for key in keys if isinstance(file.get(key, getlink=True), _h5.HardLink)]
+    groups = [key for key in own if isinstance(file[key], _h5.Group) and POSES in file[key]]
+    if not groups:
+        raise UnreadableError(name, f"no group of it holds {POSES}", _REMEDY)
+    check_count(name, len(groups))
+    return tuple(_recording(name, key, file[key], single=len(groups) == 1) for key in groups)
+
+
+def _recording(name: str, key: str, group: Any, *, single: bool) -> Recording:
+    n = _columns(name, group, f"{key}/{POSES}", POSES, rows=7)
+    poses: FloatArray = np.array(group[POSES], dtype=np.float64).T
+    times: FloatArray | None = None
+    if TIMES in group:
+        if _columns(name, group, f"{key}/{TIMES}", TIMES, rows=2) != n:
+            raise UnreadableError(name, f"{key} has not as many times as positions", _REMEDY)
+        clock = np.array(group[TIMES], dtype=np.float64)
+        # Seconds since 1970 leave no digits for nanoseconds: count from the first.
+        times = (clock[0] - clock[0, :1]) + (clock[1] - clock[1, :1]) * 1e-9
+    return Recording(
+        positions=poses[:, :3],
+        times=times,
+        orientations=poses[:, [6, 3, 4, 5]],
+        name="" if single else key,
+    )
+
+
+def _columns(name: str, group: Any, path: str, key: str, rows: int) -> int:
+    """Check a data set's shape before any of it is read; say how many samples it has."""
+    data = group[key]
+    table = isinstance(data, _h5.Dataset) and data.ndim == 2 and data.dtype.kind in "fiu"
+    if not table or data.shape[0] != rows:
+        raise UnreadableError(name, f"{path} is not an array of {rows} rows of numbers", _REMEDY)
+    n = int(data.shape[1])
+    check_length(name, n)
+    if n == 0:
+        raise UnreadableError(name, f"{path} is empty", _REMEDY)
+    return n
