@@ -46,18 +46,12 @@ _ROUNDING = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """What the arm does, tick by tick."""
+    """What the hand did, tick by tick."""
 
     times: FloatArray
-    """(T,) time of each tick, exact multiples of 10 ms [s]."""
+    """(T,) session time of each tick, exact multiples of 10 ms [s]."""
     joints: FloatArray
     """(T, J) joints after each tick [rad]."""
-
-
-@dataclass(frozen=True, eq=False)
-class HandMotion(Motion):
-    """What the pulled hand did, tick by tick; times are session time."""
-
     positions: FloatArray
     """(T, 3) tool tip after each tick [m]."""
 
@@ -106,7 +100,7 @@ def begin(arm: Arm, joints: FloatArray, time: float) -> Servo:
     return Servo(tick, np.array(joints, dtype=np.float64), now - _MARGIN, waypoint[None], np.empty((0, 4)))
 
 
-def advance(servo: Servo, arm: Arm, targets: npt.ArrayLike, until: float) -> tuple[Servo, HandMotion]:
+def advance(servo: Servo, arm: Arm, targets: npt.ArrayLike, until: float) -> tuple[Servo, Motion]:
     """Let the hand follow to a time.
 
     Parameters
@@ -126,7 +120,7 @@ def advance(servo: Servo, arm: Arm, targets: npt.ArrayLike, until: float) -> tup
     -------
     servo : Servo
         For the next call.
-    motion : HandMotion
+    motion : Motion
         One row for every tick after ``servo.time`` up to ``until``; maybe none.
 
     Raises
@@ -144,7 +138,7 @@ def advance(servo: Servo, arm: Arm, targets: npt.ArrayLike, until: float) -> tup
     return steps[-1], _motion(arm, steps[1:], len(servo.joints))
 
 
-def settle(servo: Servo, arm: Arm) -> tuple[Servo, HandMotion]:
+def settle(servo: Servo, arm: Arm) -> tuple[Servo, Motion]:
     """Let the hand arrive after the last event.
 
     Parameters
@@ -158,7 +152,7 @@ def settle(servo: Servo, arm: Arm) -> tuple[Servo, HandMotion]:
     -------
     servo : Servo
         At rest.
-    motion : HandMotion
+    motion : Motion
         Until the tool is within `ARRIVED` of the last target or has stopped,
         at most `SETTLE_TIME` long.
     """
@@ -177,22 +171,27 @@ def settle(servo: Servo, arm: Arm) -> tuple[Servo, HandMotion]:
     return steps[-1], _motion(arm, steps[1:], len(servo.joints))
 
 
-def return_home(start: FloatArray, goal: FloatArray, duration: float = 1.0) -> Motion:
+def return_home(
+    arm: Arm, start: FloatArray, goal: FloatArray, *, time: float = 0.0, duration: float = 1.0
+) -> Motion:
     """Swing from one posture to another, smoothly and without recording.
 
     Parameters
     ----------
+    arm : Arm
+        Says where the tool is.
     start, goal : (J,) array
         Joints at the beginning and at the end [rad].
+    time : float
+        Session time of the beginning [s]; rounded down to a whole tick.
     duration : float
         Length of the motion [s]; rounded to whole ticks, at least one.
 
     Returns
     -------
     Motion
-        Joints on the straight line between the two, with the minimum-jerk time
-        law; times count from the beginning, the first row is at 0.01 s and the
-        last one is exactly ``goal``.
+        Joints on the straight line, with the minimum-jerk time law; the first
+        row is one tick after ``time``, the last one is exactly ``goal``.
 
     References
     ----------
@@ -202,9 +201,11 @@ def return_home(start: FloatArray, goal: FloatArray, duration: float = 1.0) -> M
     """
     n_ticks = max(1, round(duration * TICKS_PER_SECOND))
     ticks = np.arange(1, n_ticks + 1)
-    share = (ticks / n_ticks)[:, None]
+    share = ticks / n_ticks
     eased = share**3 * (10.0 - 15.0 * share + 6.0 * share**2)
-    return Motion(ticks / TICKS_PER_SECOND, (1.0 - eased) * np.asarray(start) + eased * np.asarray(goal))
+    begin_at, end_at = np.asarray(start, dtype=np.float64), np.asarray(goal, dtype=np.float64)
+    joints = (1.0 - eased)[:, None] * begin_at + eased[:, None] * end_at
+    return _tool_motion(arm, _tick_at(time) + ticks, joints)
 
 
 def _one_tick(servo: Servo, arm: Arm) -> Servo:
@@ -244,11 +245,15 @@ def _proceed(reference: float, waypoints: FloatArray, now: float) -> float:
     return min(reference + _TICK * (CATCH_UP if behind else 1.0), float(waypoints[-1, 0]))
 
 
-def _motion(arm: Arm, steps: list[Servo], n_joints: int) -> HandMotion:
-    times = np.array([step.time for step in steps])
+def _motion(arm: Arm, steps: list[Servo], n_joints: int) -> Motion:
+    ticks = np.array([step.tick for step in steps], dtype=np.intp)
     joints = np.array([step.joints for step in steps]).reshape(-1, n_joints)
+    return _tool_motion(arm, ticks, joints)
+
+
+def _tool_motion(arm: Arm, ticks: npt.NDArray[np.intp], joints: FloatArray) -> Motion:
     positions = np.array([arm.tool_pose(configuration)[:3, 3] for configuration in joints])
-    return HandMotion(times, joints, positions.reshape(-1, 3))
+    return Motion(ticks / TICKS_PER_SECOND, joints, positions.reshape(-1, 3))
 
 
 def _tick_at(time: float) -> int:
