@@ -1,0 +1,65 @@
+"""The demonstrations as thin red lines that one pulls to correct them."""
+
+from collections.abc import Callable
+from typing import Final
+
+import viser
+
+from app.actions import Actions
+from app.document import Shown
+from app.scene.geometry import dashes, pick_tube, segments, thin_out
+from app.scene.nodes import Line, Mesh
+from app.scene.pulls import bind_pull
+from app.scene.style import DEMONSTRATION, MUTED, PICK_RADIUS
+from app.store import State
+
+MOST_POINTS: Final = 600
+"""Drawn of one demonstration, all of them points of it."""
+
+
+class Demonstrations:
+    """``/demonstrations/i``, what the pointer hits, with the line in it as ``…/line``."""
+
+    def __init__(self, api: viser.SceneApi, actions: Actions, clock: Callable[[], float]) -> None:
+        self._api, self._actions, self._clock = api, actions, clock
+        self._lines: list[_Demonstration] = []
+
+    def draw(self, state: State) -> None:
+        """Draw all of the document, also those that are muted."""
+        shown = state.document.demonstrations if state.view.show_demonstrations else ()
+        while len(self._lines) < len(shown):
+            name = f"/demonstrations/{len(self._lines)}"
+            self._lines.append(_Demonstration(self._api, name, self._actions, self._clock))
+        for i, line in enumerate(self._lines):
+            line.draw(shown[i] if i < len(shown) else None)
+
+
+class _Demonstration:
+    def __init__(self, api: viser.SceneApi, name: str, actions: Actions, clock: Callable[[], float]) -> None:
+        self._pick = Mesh(api, name, opacity=0.0)
+        self._line = Line(api, f"{name}/line")
+        self._actions, self._clock = actions, clock
+        self._bound = False
+        self._drawn: Shown | None = None
+
+    def draw(self, shown: Shown | None) -> None:
+        drawn, self._drawn = self._drawn, shown
+        if shown is None:
+            self._pick.hide()
+            return
+        if drawn is not None and _same(drawn, shown):
+            return
+        positions = shown.demonstration.positions
+        handle = self._pick.show(*pick_tube(positions, PICK_RADIUS))
+        if not self._bound:
+            bind_pull(handle, self._actions, self._clock)
+            self._bound = True
+        visible = thin_out(positions, MOST_POINTS)
+        if shown.muted:
+            self._line.show(dashes(visible), color=MUTED)
+        else:
+            self._line.show(segments(visible), color=DEMONSTRATION)
+
+
+def _same(one: Shown, other: Shown) -> bool:
+    return one.demonstration is other.demonstration and one.muted == other.muted

@@ -1,0 +1,94 @@
+"""What the motion is tied to, in yellow: pull one and the tube bends.
+
+The goal is a ball on a stand. The start is the stand alone, because the hand and the
+magenta ball are at its top.
+"""
+
+from collections.abc import Callable
+from typing import Final
+
+import numpy as np
+import viser
+
+from app.actions import Actions
+from app.model import Anchor
+from app.scene.geometry import dashes, stem, torus
+from app.scene.nodes import Ball, Line, Mesh
+from app.scene.pulls import bind_pull
+from app.scene.style import GHOST_OPACITY, GHOST_RADIUS, LANDMARK, LANDMARK_RADIUS
+from app.store import State
+
+STEM_RADIUS: Final = 0.004
+RING_RADIUS: Final = 0.045
+RING_THICKNESS: Final = 0.009
+_HERE: Final = np.zeros(3)
+
+
+class Landmarks:
+    """``/landmarks/<name>``, with its origin at the landmark."""
+
+    def __init__(self, api: viser.SceneApi, actions: Actions, clock: Callable[[], float]) -> None:
+        self._api, self._actions, self._clock = api, actions, clock
+        self._marks: dict[str, _Landmark] = {}
+
+    def draw(self, state: State) -> None:
+        """Draw every landmark that has a position."""
+        anchors = {anchor.name: anchor for anchor in state.model.anchors}
+        for name in anchors.keys() - self._marks.keys():
+            self._marks[name] = _Landmark(self._api, name, self._actions, self._clock)
+        for name, mark in self._marks.items():
+            mark.draw(anchors.get(name))
+
+
+class _Landmark:
+    def __init__(self, api: viser.SceneApi, name: str, actions: Actions, clock: Callable[[], float]) -> None:
+        node = f"/landmarks/{name}"
+        self._ball = None if name == "start" else Ball(api, node, radius=LANDMARK_RADIUS, color=LANDMARK)
+        self._stem = Mesh(api, node if name == "start" else f"{node}/stem", color=LANDMARK)
+        self._ring = Mesh(api, f"{node}/ring", color=LANDMARK)
+        self._ghost = Ball(api, f"/taught/{name}", radius=GHOST_RADIUS, color=LANDMARK, opacity=GHOST_OPACITY)
+        self._way = Line(api, f"/taught/{name}/way", color=LANDMARK)
+        self._actions, self._clock = actions, clock
+        self._bound = False
+        self._anchor: Anchor | None = None
+
+    def draw(self, anchor: Anchor | None) -> None:
+        if anchor is self._anchor:
+            return
+        self._anchor = anchor
+        if anchor is None:
+            self._hide()
+            return
+        self._draw_here(anchor)
+        self._draw_taught(anchor)
+
+    def _hide(self) -> None:
+        (self._ball or self._stem).hide()
+        self._ghost.hide()
+
+    def _draw_here(self, anchor: Anchor) -> None:
+        height = float(anchor.now[2])
+        node = self._draw_stem(height)
+        self._ring.show(*_RING).position = (0.0, 0.0, 0.5 * RING_THICKNESS - height)
+        if self._ball is None:
+            node.position = anchor.now
+        else:
+            node = self._ball.show(anchor.now)
+        if not self._bound:
+            bind_pull(node, self._actions, self._clock)
+            self._bound = True
+
+    def _draw_stem(self, height: float) -> viser.MeshHandle:
+        vertices, faces = stem(height, STEM_RADIUS)
+        return self._stem.show(vertices, faces)
+
+    def _draw_taught(self, anchor: Anchor) -> None:
+        moved = anchor.now is not anchor.taught and not np.array_equal(anchor.now, anchor.taught)
+        if not moved:
+            self._ghost.hide()
+            return
+        self._ghost.show(anchor.taught)
+        self._way.show(dashes(np.stack([_HERE, anchor.now - anchor.taught])))
+
+
+_RING: Final = torus(RING_RADIUS, RING_THICKNESS)

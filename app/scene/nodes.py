@@ -1,0 +1,141 @@
+"""Things in the scene that are added once, then updated in place, and hidden instead of removed.
+
+viser compares and copies on every assignment, which costs tens of microseconds; these
+remember which object they drew and send nothing when it is the same one.
+"""
+
+from typing import Any
+
+import numpy as np
+import viser
+
+from app.document import FloatArray
+from app.scene.geometry import Faces, Vertices
+from app.scene.style import GUIDE, THIN, Color
+
+
+class Line:
+    """Straight segments of a constant width in pixels."""
+
+    def __init__(
+        self, api: viser.SceneApi, name: str, *, color: Color = GUIDE, thickness: float = THIN
+    ) -> None:
+        self._api, self._name = api, name
+        self._color, self._thickness = color, thickness
+        self._handle: viser.LineSegmentsHandle | None = None
+
+    def show(
+        self, segments: FloatArray, *, color: Color | None = None, thickness: float | None = None
+    ) -> None:
+        """Draw segments (k, 2, 3) [m]; none at all hides the line."""
+        if len(segments) == 0:
+            self.hide()
+            return
+        self._color, self._thickness = color or self._color, thickness or self._thickness
+        if self._handle is None:
+            self._handle = self._api.add_line_segments(
+                self._name, segments, self._color, thickness=self._thickness, thickness_units="screen"
+            )
+            return
+        self._handle.points = segments.astype(np.float32)
+        self._handle.colors = np.array(self._color, dtype=np.uint8)
+        self._handle.thickness = self._thickness
+        self._handle.visible = True
+
+    def hide(self) -> None:
+        """Take it out of sight."""
+        if self._handle is not None:
+            self._handle.visible = False
+
+
+class Mesh:
+    """A body of triangles; `looks` are viser's options for `add_mesh_simple`."""
+
+    def __init__(self, api: viser.SceneApi, name: str, **looks: Any) -> None:
+        self._api, self._name = api, name
+        self._looks: dict[str, Any] = {"cast_shadow": False, "receive_shadow": False, **looks}
+        self._faces: Faces | None = None
+        self._handle: viser.MeshHandle | None = None
+
+    def show(self, vertices: Vertices, faces: Faces) -> viser.MeshHandle:
+        """Draw it; the same faces object is not sent again."""
+        if self._handle is None:
+            self._handle = self._api.add_mesh_simple(self._name, vertices, faces, **self._looks)
+        else:
+            self._handle.vertices = vertices
+            if faces is not self._faces:
+                self._handle.faces = faces
+            self._handle.visible = True
+        self._faces = faces
+        return self._handle
+
+    def hide(self) -> None:
+        """Take it out of sight."""
+        if self._handle is not None:
+            self._handle.visible = False
+
+    @property
+    def handle(self) -> viser.MeshHandle | None:
+        """Of viser, once it was shown."""
+        return self._handle
+
+
+class Ball:
+    """A sphere of one size."""
+
+    def __init__(
+        self, api: viser.SceneApi, name: str, *, radius: float, color: Color, opacity: float | None = None
+    ) -> None:
+        self._api, self._name = api, name
+        self._radius, self._color, self._opacity = radius, color, opacity
+        self._handle: viser.IcosphereHandle | None = None
+
+    def show(
+        self, position: FloatArray, *, color: Color | None = None, scale: float = 1.0
+    ) -> viser.IcosphereHandle:
+        """Put it at a position (3,) [m]."""
+        if self._handle is None:
+            self._handle = self._api.add_icosphere(
+                self._name,
+                radius=self._radius,
+                color=color or self._color,
+                opacity=self._opacity,
+                scale=scale,
+                subdivisions=3,
+                cast_shadow=False,
+                receive_shadow=False,
+                position=position,
+            )
+            return self._handle
+        self._handle.position = position
+        self._handle.color = color or self._color
+        self._handle.scale = scale
+        self._handle.visible = True
+        return self._handle
+
+    def hide(self) -> None:
+        """Take it out of sight."""
+        if self._handle is not None:
+            self._handle.visible = False
+
+
+class Label:
+    """Words beside a place."""
+
+    def __init__(self, api: viser.SceneApi, name: str) -> None:
+        self._api, self._name = api, name
+        self._handle: viser.LabelHandle | None = None
+
+    def show(self, position: FloatArray, text: str) -> None:
+        """Write a text next to a position (3,) [m]."""
+        if self._handle is None:
+            self._handle = self._api.add_label(self._name, text, position=position, anchor="bottom-left")
+            return
+        self._handle.position = position
+        self._handle.text = text
+        self._handle.visible = True
+
+    def hide(self) -> None:
+        """Take it out of sight."""
+        if self._handle is not None:
+            self._handle.visible = False

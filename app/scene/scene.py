@@ -1,0 +1,63 @@
+"""All drawing parts of one session."""
+
+from collections.abc import Callable
+from typing import Protocol
+
+import viser
+
+from app.actions import Actions
+from app.arm.protocol import Arm
+from app.scene.arm import ArmFrames
+from app.scene.cylinder import Directrix, Section, Tube
+from app.scene.demonstrations import Demonstrations
+from app.scene.drop import DropLine
+from app.scene.hand import HandBall, Recording, Shortage
+from app.scene.landmarks import Landmarks
+from app.scene.reproductions import Reproductions, Starts
+from app.store import State
+
+
+class Part(Protocol):
+    """Something that draws its share of the state."""
+
+    def draw(self, state: State) -> None:
+        """Bring what is on the screen up to date; sends nothing when it is already."""
+        ...
+
+
+class Scene:
+    """What one person sees; call `draw` from one thread, inside ``client.atomic()``."""
+
+    def __init__(self, api: viser.SceneApi, actions: Actions, arm: Arm, clock: Callable[[], float]) -> None:
+        """Make the parts.
+
+        Parameters
+        ----------
+        api : viser.SceneApi
+            The scene of this person's client.
+        actions : Actions
+            Where pulls and clicks go.
+        arm : Arm
+            Whose links are moved; its `link_poses` is called by `draw`.
+        clock : callable
+            Session time now [s]; stamps the pulls.
+        """
+        self._parts: tuple[Part, ...] = (
+            Tube(api),  # first, see there
+            ArmFrames(api, arm),
+            Directrix(api, actions),
+            Section(api),
+            Demonstrations(api, actions, clock),
+            Reproductions(api, actions, clock),
+            Starts(api, actions, clock),
+            Landmarks(api, actions, clock),
+            Recording(api),
+            HandBall(api, actions, clock),
+            Shortage(api),
+            DropLine(api),
+        )
+
+    def draw(self, state: State) -> None:
+        """Draw a state; what is unchanged since the last one costs nothing."""
+        for part in self._parts:
+            part.draw(state)

@@ -1,0 +1,44 @@
+"""How things look: one place for every colour, width and size of the scene.
+
+The colours are those of the paper's figures. Colour is never the only code: what is
+muted is dashed, what was refined is twice as wide and has dots at its ends. Widths of
+lines are in pixels, sizes of bodies in metres.
+"""
+
+from typing import Final, TypeAlias
+
+Color: TypeAlias = tuple[int, int, int]
+"""Red, green, blue, each 0..255."""
+
+DEMONSTRATION: Final[Color] = (196, 22, 28)
+MUTED: Final[Color] = (224, 150, 152)
+DIRECTRIX: Final[Color] = (31, 63, 168)
+TUBE: Final[Color] = (196, 202, 212)
+REPRODUCTION: Final[Color] = (224, 75, 220)
+REFINED: Final[Color] = (26, 158, 115)
+FREE: Final[Color] = (120, 126, 136)
+LANDMARK: Final[Color] = (242, 186, 26)
+HAND: Final[Color] = (92, 104, 122)
+WARNING: Final[Color] = (240, 140, 0)
+SECTION: Final[Color] = (20, 38, 108)
+GUIDE: Final[Color] = (104, 112, 124)
+SHADOW: Final[Color] = (150, 156, 166)
+TABLE: Final[Color] = (232, 235, 239)
+CELL: Final[Color] = (214, 219, 226)
+SECTION_OF_TABLE: Final[Color] = (192, 199, 208)
+
+TUBE_OPACITY: Final = 0.30
+GHOST_OPACITY: Final = 0.35
+
+THIN: Final = 2.0
+THICK: Final = 4.0
+DOUBLE: Final = 8.0
+
+HAND_RADIUS: Final = 0.025
+START_RADIUS: Final = 0.016
+START_RADIUS_IN_TRY: Final = 0.028
+"""Larger than the hand, which rests in the same place, so that it is what one grabs."""
+LANDMARK_RADIUS: Final = 0.030
+GHOST_RADIUS: Final = 0.014
+PICK_RADIUS: Final = 0.010
+"""How near to a line the pointer has to be [m]."""

@@ -1,0 +1,99 @@
+"""What all sessions share: table, light, the meshes of the arm, and where one looks from.
+
+It is drawn once, on the server's scene. The link meshes have no frames there: each
+session puts its own under them, see `app.scene.arm`.
+"""
+
+from dataclasses import dataclass
+from typing import Final
+
+import viser
+
+from app.arm.protocol import Arm
+from app.scene.style import CELL, SECTION_OF_TABLE, TABLE, Color
+
+TABLE_SIZE: Final = 2.2
+"""Side of the table [m]: the arm reaches about 1 m to every side."""
+TABLE_THICKNESS: Final = 0.025
+
+
+@dataclass(frozen=True)
+class Viewpoint:
+    """A place to look from."""
+
+    position: tuple[float, float, float]
+    """Of the camera [m]."""
+    look_at: tuple[float, float, float]
+    """[m]."""
+
+
+VIEWS: Final[dict[str, Viewpoint]] = {
+    "3D": Viewpoint((0.85, -1.45, 0.80), (0.0, -0.36, 0.25)),
+    "Front": Viewpoint((0.0, -2.1, 0.30), (0.0, -0.36, 0.30)),
+    "Side": Viewpoint((1.8, -0.36, 0.30), (0.0, -0.36, 0.30)),
+    "Top": Viewpoint((0.0, -0.37, 1.9), (0.0, -0.36, 0.0)),
+}
+"""What the view buttons show."""
+FIELD_OF_VIEW: Final = 0.80
+"""Vertical [rad]; narrow, so that distances are not exaggerated."""
+
+
+def draw_world(api: viser.SceneApi, arm: Arm) -> None:
+    """Draw the table, the light and the meshes of the arm's links.
+
+    Parameters
+    ----------
+    api : viser.SceneApi
+        The server's scene.
+    arm : Arm
+        Whose links are drawn, as ``/arm/<link>/mesh``.
+    """
+    api.configure_default_lights(True, cast_shadow=False)
+    _draw_table(api)
+    count: dict[str, int] = {}
+    for mesh in arm.link_meshes:
+        number = count[mesh.link] = count.get(mesh.link, 0) + 1
+        api.add_mesh_simple(
+            f"/arm/{mesh.link}/mesh{'' if number == 1 else number}",
+            mesh.vertices,
+            mesh.faces,
+            color=readable(mesh.color),
+            cast_shadow=False,
+            receive_shadow=False,
+        )
+
+
+def look_from_here(camera: viser.InitialCameraConfig) -> None:
+    """Let every new page begin with the 3-D view; set on ``server.initial_camera``."""
+    camera.position = VIEWS["3D"].position
+    camera.look_at = VIEWS["3D"].look_at
+    camera.fov = FIELD_OF_VIEW
+
+
+def readable(color: Color) -> Color:
+    """Lift near-black parts so that their shape is still seen."""
+    red, green, blue = (round(62 + value * (255 - 62) / 255) for value in color)
+    return red, green, blue
+
+
+def _draw_table(api: viser.SceneApi) -> None:
+    api.add_box(
+        "/table",
+        dimensions=(TABLE_SIZE, TABLE_SIZE, TABLE_THICKNESS),
+        color=TABLE,
+        position=(0.0, 0.0, -0.5 * TABLE_THICKNESS - 0.002),
+        cast_shadow=False,
+        receive_shadow=False,
+    )
+    api.add_grid(
+        "/table_grid",
+        width=TABLE_SIZE,
+        height=TABLE_SIZE,
+        cell_size=0.1,
+        cell_color=CELL,
+        cell_thickness=0.8,
+        section_size=0.5,
+        section_color=SECTION_OF_TABLE,
+        section_thickness=1.0,
+        shadow_opacity=0.0,
+    )
