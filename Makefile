@@ -1,0 +1,50 @@
+# Every target sets up what it needs; the second time that takes no time.
+# Options for the app: make run ARGS="--port 9000 my_paths.csv"
+
+BIN := .venv/bin
+ARGS ?=
+PYTEST := OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/python -m pytest
+PLAIN := -o addopts="-ra --strict-markers --import-mode=importlib"
+LOCK := UV_CUSTOM_COMPILE_COMMAND="make lock" .venv-lock/bin/uv pip compile pyproject.toml --quiet --upgrade \
+	--generate-hashes --python-version 3.11 --python-platform x86_64-manylinux_2_28 --group build
+
+.PHONY: run test check format bench soak fresh wheel lock ready ready-to-test
+
+run: ready  ## open the app
+	@OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 exec $(BIN)/gc-teach serve --open $(ARGS)
+
+test: check  ## everything but benchmarks and soaks
+	$(PYTEST) -m "not soak" $(ARGS)
+
+check: ready-to-test  ## style and types
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/pyright
+
+format: ready-to-test  ## put the style right
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+bench: ready-to-test  ## how long things take
+	$(PYTEST) $(PLAIN) --benchmark-only tests/benchmarks $(ARGS)
+
+soak: ready-to-test  ## long and repeated
+	$(PYTEST) -m soak $(ARGS)
+
+fresh:  ## `make run` and `make test` of the last commit in a bare Debian; as root
+	docker/fresh.sh
+
+wheel: ready-to-test  ## dist/gc_teach-*.whl
+	$(BIN)/python -m hatchling build -t wheel -d dist
+
+lock:  ## newest versions that pyproject.toml allows, with hashes
+	python3 -m venv .venv-lock
+	.venv-lock/bin/pip install --quiet uv
+	$(LOCK) --extra physics --output-file requirements.lock
+	$(LOCK) --extra physics --extra dev --constraints requirements.lock --output-file requirements-dev.lock
+
+ready:
+	@docker/setup.sh run
+
+ready-to-test:
+	@docker/setup.sh test
