@@ -72,6 +72,10 @@ class Actions(Protocol):
         """Move the hand, and the start of the next demonstration, without recording."""
         ...
 
+    def toggle_gripper(self) -> None:
+        """Open or close the hand; recorded while it is pulled."""
+        ...
+
     def offer_file(self, name: str, content: bytes) -> None:
         """Read an uploaded recording and show what is in it, before it is accepted."""
         ...

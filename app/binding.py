@@ -7,7 +7,7 @@ event loop and only post.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Final, Generic, Protocol, TypeVar
 
 import viser
 
@@ -16,7 +16,10 @@ from app.store import State
 T = TypeVar("T")
 R = TypeVar("R", bound="Row")
 
-MOST_PENDING = 64
+QUIET: Final = (96, 104, 116)
+STRONG: Final = (31, 63, 168)
+"""Colours of buttons: white text keeps 4.5:1 on both, in the light and in the dark theme."""
+MOST_PENDING: Final = 64
 """Values of one widget that can be under way to the session at once."""
 
 
@@ -171,14 +174,17 @@ class Rows(Generic[R]):
     def __init__(self, container: viser.GuiFolderHandle, make: Callable[[int], R]) -> None:
         self._container, self._make = container, make
         self._rows: list[R] = []
+        self._count = 0
 
     def fit(self, count: int) -> Sequence[R]:
         """Make, show and hide rows so that ``count`` are shown; returns those."""
-        with self._container:
-            while len(self._rows) < count:
-                self._rows.append(self._make(len(self._rows)))
-        for index, row in enumerate(self._rows):
-            row.show(index < count)
+        if count != self._count:
+            self._count = count
+            with self._container:
+                while len(self._rows) < count:
+                    self._rows.append(self._make(len(self._rows)))
+            for index, row in enumerate(self._rows):
+                row.show(index < count)
         return self._rows[:count]
 
 

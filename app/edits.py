@@ -66,6 +66,12 @@ def point(values: Sequence[float] | FloatArray) -> FloatArray:
     return p
 
 
+def skill_of(title: str, demonstrations: Sequence[Demonstration]) -> Document:
+    """Make a skill of demonstrations that come from elsewhere."""
+    about = f"{len(demonstrations)} demonstrations, and the tube that was learned from them."
+    return add_demonstrations(Document(title.strip()[:80] or "My skill", about), demonstrations)
+
+
 def rename_skill(document: Document, title: str) -> Document:
     """Change the skill's name."""
     title = title.strip()[:80]

@@ -98,11 +98,10 @@ def pull_on(node: str, grabbed: FloatArray, model: Model, width: float) -> Pull 
 
 
 def _pull_landmark(node: str, name: str, model: Model) -> Pull | None:
-    for anchor in model.anchors:
-        if anchor.name == name:
-            origin = anchor.now
-            return Pull(node, f"move {name}", lambda d, by: edits.move_landmark(d, name, origin + by))
-    return None
+    origin = next((anchor.now for anchor in model.anchors if anchor.name == name), None)
+    if origin is None:
+        return None
+    return Pull(node, f"move {name}", lambda d, by: edits.move_landmark(d, name, origin + by))
 
 
 def _pull_start(node: str, index: int, model: Model) -> Pull:

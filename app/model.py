@@ -52,6 +52,8 @@ class Run:
     """By the ratio rule alone."""
     reproduction: Reproduction
     """After the rules; the same object as ``free`` where no rule bites."""
+    constraints: tuple[Constraint, ...] = ()
+    """The rules that were on."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,32 +163,34 @@ def _anchors(model: Model) -> tuple[Anchor, ...]:
 
 
 def _reproduce(model: Model, former: Model) -> Model:
-    if model.cylinder is None:
+    cylinder = model.cylinder
+    if cylinder is None:
         return model
     constraints = tuple(rule.constraint for rule in model.source.rules if rule.enabled)
     if _same(constraints, former.constraints):
         constraints = former.constraints
     model = replace(model, constraints=constraints)
-    starts = _starts(model, model.cylinder)
-    former_runs = former.runs if model.cylinder is former.cylinder else ()
+    starts = _starts(model, cylinder)
+    former_runs = former.runs if cylinder is former.cylinder else ()
     runs = tuple(
-        _run(model, start, former_runs[i] if i < len(former_runs) else None, former.constraints)
+        _run(cylinder, start, constraints, former_runs[i] if i < len(former_runs) else None)
         for i, start in enumerate(starts)
     )
     return replace(model, runs=runs)
 
 
 def _run(
-    model: Model, start: FloatArray, former: Run | None, former_constraints: tuple[Constraint, ...]
+    cylinder: GeneralizedCylinder,
+    start: FloatArray,
+    constraints: tuple[Constraint, ...],
+    former: Run | None,
 ) -> Run:
-    assert model.cylinder is not None  # noqa: S101 - for the type checker; _reproduce saw to it
-    if former is not None and np.array_equal(start, former.start):
-        if model.constraints is former_constraints:
-            return former
-        free, start = former.free, former.start
-    else:
-        free = reproduce(model.cylinder, start)
-    return Run(start, free, constrain(free, model.constraints))
+    if former is None or not np.array_equal(start, former.start):
+        free = reproduce(cylinder, start)
+        return Run(start, free, constrain(free, constraints), constraints)
+    if former.constraints is constraints:
+        return former
+    return Run(former.start, former.free, constrain(former.free, constraints), constraints)
 
 
 def _starts(model: Model, cylinder: GeneralizedCylinder) -> tuple[FloatArray, ...]:

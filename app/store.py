@@ -11,7 +11,7 @@ from typing import Final
 from app import edits
 from app.arm.protocol import JointPath, Shortfall
 from app.document import Document, FloatArray, View
-from app.files import Unit
+from app.files import Frame, Unit
 from app.model import Model
 
 MERGE_WITHIN: Final = 1.0
@@ -39,6 +39,8 @@ class Hand:
     """(J,) [rad]."""
     position: FloatArray
     """(3,) tool tip [m]."""
+    gripper: float = 0.0
+    """0 open .. 1 closed."""
     wanted: FloatArray | None = None
     """(3,) where the pointer wants the tool while it cannot follow [m]."""
     shortfall: Shortfall | None = None
@@ -72,8 +74,10 @@ class Offer:
     """What is in it, in a teacher's words."""
     unit: Unit
     """The guess, to be confirmed."""
-    demonstrations: int
-    """How many it holds."""
+    unit_reason: str
+    frame: Frame
+    """The guess, to be confirmed."""
+    frame_reason: str
 
 
 @dataclass(frozen=True, eq=False)

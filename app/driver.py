@@ -1,0 +1,108 @@
+"""Where the arm is: pulled by the hand, on its way back, led by the playhead, or at rest."""
+
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from app.arm.protocol import Arm, FloatArray, JointPath
+from app.servo import Motion, return_home
+from app.store import Hand
+from gc_core import Reproduction
+
+SERVO_TICK: Final = 0.01
+"""Of the hand's servo [s]."""
+LARGEST_LEAD: Final = 10
+"""Servo ticks at most in one step of the driver."""
+FASTEST: Final = 3.0
+"""No joint turns faster than this when the arm catches up with the playhead [rad/s]."""
+RETURN: Final = 1.0
+"""The hand goes back to its start in this time [s]."""
+STILL: Final = 1e-3
+"""A joint that moves less than this in a step is at rest [rad]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Lead:
+    """Where the playhead wants the arm."""
+
+    position: FloatArray
+    """(3,) of the tool [m]."""
+    joints: FloatArray | None
+    """(J,) once the joint path is known [rad]."""
+    gripper: float
+
+
+def lead_at(time: float, run: Reproduction, path: JointPath | None) -> Lead:
+    """Read a reproduction, and its joint path where there is one, at a time [s]."""
+    index = int(np.clip(np.searchsorted(run.times, time, side="right") - 1, 0, len(run.times) - 2))
+    span = run.times[index + 1] - run.times[index]
+    share = float(np.clip((time - run.times[index]) / span, 0.0, 1.0)) if span > 0.0 else 0.0
+
+    def between(values: FloatArray) -> FloatArray:
+        return (1.0 - share) * values[index] + share * values[index + 1]
+
+    gripper = 0.0 if run.gripper is None else float(run.gripper[index])
+    return Lead(between(run.positions), None if path is None else between(path.joints), gripper)
+
+
+class Driver:
+    """Keeps the arm's joints; everything that moves them goes through here."""
+
+    def __init__(self, arm: Arm) -> None:
+        self._arm = arm
+        self._leads = True
+        self._way: tuple[float, Motion] | None = None
+        self.hand = self._at(arm.home)
+
+    def _at(self, joints: FloatArray, gripper: float = 0.0) -> Hand:
+        return Hand(joints, self._arm.tool_pose(joints)[:3, 3], gripper)
+
+    def lead(self) -> None:
+        """From now on the arm follows the playhead."""
+        self._leads, self._way = True, None
+
+    def pulled(self, hand: Hand) -> None:
+        """Take over where the servo has brought the pulled hand."""
+        self._leads, self._way, self.hand = False, None, hand
+
+    def released(self, hand: Hand, back_to: FloatArray | None, now: float) -> None:
+        """Stay where the hand was let go, or go back to the joints it was grabbed at."""
+        self.pulled(hand)
+        if back_to is not None:
+            self._way = now, return_home(self._arm, hand.joints, back_to, duration=RETURN)
+
+    def grip(self, gripper: float) -> None:
+        """Open (0) or close (1) the hand."""
+        self.hand = replace(self.hand, gripper=gripper)
+
+    def tick(self, now: float, dt: float, lead: Lead | None) -> bool:
+        """Move the arm on; returns whether it still moves."""
+        if self._way is not None:
+            return self._go_back(now)
+        if not self._leads or lead is None:
+            return False
+        before = self.hand.joints
+        joints = self._catch_up(before, lead, dt)
+        moved = bool(np.max(np.abs(joints - before)) > STILL)
+        if moved or lead.gripper != self.hand.gripper:
+            self.hand = self._at(joints, lead.gripper)
+        return moved
+
+    def _go_back(self, now: float) -> bool:
+        assert self._way is not None
+        began, motion = self._way
+        index = int(np.searchsorted(motion.times, now - began))
+        if index >= len(motion.times):
+            self.hand, self._way = self._at(motion.joints[-1], self.hand.gripper), None
+            return False
+        self.hand = self._at(motion.joints[index], self.hand.gripper)
+        return True
+
+    def _catch_up(self, joints: FloatArray, lead: Lead, dt: float) -> FloatArray:
+        if lead.joints is not None:
+            most = FASTEST * max(dt, SERVO_TICK)
+            return joints + np.clip(lead.joints - joints, -most, most)
+        for _ in range(min(max(round(dt / SERVO_TICK), 1), LARGEST_LEAD)):
+            joints = self._arm.step(joints, lead.position, SERVO_TICK)
+        return joints

@@ -1,0 +1,84 @@
+"""What one tab asks for, put into the session's mailbox."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from app import skills
+from app.actions import Drag
+from app.desk import Desk
+from app.document import Document, FloatArray
+from app.files import Frame, Unit
+
+if TYPE_CHECKING:
+    from app.session import Session
+
+
+class Seat:
+    """The `Actions` of one tab; the session listens only to the one that works."""
+
+    def __init__(self, session: "Session", client_id: int) -> None:
+        self._session, self._client_id = session, client_id
+
+    def _post(self, act: Callable[[Desk, float], None]) -> None:
+        self._session.post(self._client_id, act)
+
+    def edit(self, f: Callable[[Document], Document], name: str, key: str | None = None) -> None:
+        """See `Actions.edit`."""
+        self._post(lambda desk, now: desk.edit(f, name, now=now, key=key))
+
+    def look(self, **changes: Any) -> None:
+        """See `Actions.look`."""
+        self._post(lambda desk, _: desk.look(**changes))
+
+    def undo(self) -> None:
+        """See `Actions.undo`."""
+        self._post(lambda desk, now: desk.undo(now))
+
+    def redo(self) -> None:
+        """See `Actions.redo`."""
+        self._post(lambda desk, now: desk.redo(now))
+
+    def play(self, playing: bool) -> None:
+        """See `Actions.play`."""
+        self._post(lambda desk, _: desk.play(playing))
+
+    def seek(self, time: float) -> None:
+        """See `Actions.seek`."""
+        self._post(lambda desk, _: desk.seek(time))
+
+    def choose_run(self, run: int) -> None:
+        """See `Actions.choose_run`."""
+        self._post(lambda desk, _: desk.choose_run(run))
+
+    def drag(self, drag: Drag) -> None:
+        """See `Actions.drag`."""
+        self._post(lambda desk, _: desk.drag(drag))
+
+    def move_hand(self, position: FloatArray) -> None:
+        """See `Actions.move_hand`."""
+        self._post(lambda desk, now: desk.move_hand(position, now))
+
+    def toggle_gripper(self) -> None:
+        """See `Actions.toggle_gripper`."""
+        self._post(lambda desk, _: desk.toggle_gripper())
+
+    def offer_file(self, name: str, content: bytes) -> None:
+        """See `Actions.offer_file`."""
+        self._session.look_into(self._client_id, name, content)
+
+    def accept_file(self, unit: Unit, frame: Frame) -> None:
+        """See `Actions.accept_file`."""
+        self._post(lambda desk, now: desk.accept_file(unit, frame, now))
+
+    def decline_file(self) -> None:
+        """See `Actions.decline_file`."""
+        self._post(lambda desk, _: desk.decline_file())
+
+    def open_skill(self, name: str) -> None:
+        """See `Actions.open_skill`."""
+        folder = self._session.skills_folder
+
+        def open_it(desk: Desk, now: float) -> None:
+            desk.open(skills.load_skill(folder, name) if name else skills.empty_skill(), now)
+
+        self._post(open_it)

@@ -1,0 +1,225 @@
+"""One person's session: builds its parts and joins them; outlives its socket.
+
+The desk does the work, the actor gives it one thing at a time to do, viewers show it,
+workers plan the arm's path, read files and save. The code in the address names the
+session, so that a reload finds it again.
+"""
+
+import logging
+import time
+from collections.abc import Callable, Sequence, Set
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import viser
+
+from app import viewers
+from app.actor import Actor, Latest
+from app.arm.protocol import Arm
+from app.desk import Desk
+from app.document import Document
+from app.files import inspect_bytes
+from app.library import Library
+from app.seat import Seat
+from app.store import Plan, State
+from app.viewers import Viewer
+from gc_core import GcError
+
+FORGOTTEN_AFTER: Final = 60.0
+"""A session without a tab is closed after this time [s]."""
+IDLE_AFTER: Final = 180.0
+"""Playback stops when nobody has done anything for this time [s]."""
+
+_log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True, eq=False)
+class Workshop:
+    """What all sessions of one server share."""
+
+    library: Library
+    workers: Executor
+    make_arm: Callable[[], Arm]
+    skills_folder: Path
+    skills: Sequence[tuple[str, str]]
+    """Names and titles of the built-in skills."""
+
+
+class Session:
+    """A desk, its mailbox, and the tabs that look at it."""
+
+    def __init__(self, code: str, document: Document, workshop: Workshop) -> None:
+        self.code: Final = code
+        self.skills_folder: Final = workshop.skills_folder
+        self.empty_since: float | None = time.monotonic()
+        self._workshop = workshop
+        self._arm = workshop.make_arm()
+        self._desk = Desk(document, self._arm)
+        self._viewers: dict[int, Viewer] = {}
+        self._works: int | None = None
+        self._planned: tuple[object, int] | None = None
+        self._time = self._touched = self.clock()
+        self._actor = Actor(tick=self._tick, draw=self._draw, report=self._report, name=f"session-{code}")
+        self._plans = Latest(workshop.workers, self._actor)
+        self._saves = Latest(workshop.workers, self._actor)
+        self._files = Latest(workshop.workers, self._actor)
+
+    @staticmethod
+    def clock() -> float:
+        """Session time [s]."""
+        return time.monotonic()
+
+    # --- tabs --------------------------------------------------------------------------
+
+    def attach(self, client: viser.ClientHandle) -> None:
+        """Show the session in a tab; the first one works, others watch."""
+        self._actor.post(lambda: self._attach(client))
+
+    def detach(self, client_id: int) -> None:
+        """A tab has gone; what it was pulling is let go."""
+        self._actor.post(lambda: self._detach(client_id))
+
+    def reconcile(self, present: Set[int]) -> None:
+        """Forget tabs that are not connected any more, whatever was missed."""
+
+        def action() -> None:
+            for client_id in self._viewers.keys() - present:
+                self._detach(client_id)
+            if not self._viewers and self.empty_since is None:
+                self.empty_since = time.monotonic()
+
+        self._actor.post(action)
+
+    def close(self) -> None:
+        """Finish, save and stop."""
+        self._actor.post(self._save_now)
+        self._actor.close()
+        self._arm.close()
+
+    def _attach(self, client: viser.ClientHandle) -> None:
+        self.empty_since = None
+        self._touched = self.clock()
+        if self._works is None:
+            self._work(client)
+        else:
+            self._watch(client)
+
+    def _work(self, client: viser.ClientHandle) -> None:
+        self._works = client.client_id
+        seat = Seat(self, client.client_id)
+        viewer = viewers.working(client, seat, self._arm, self.clock, self._workshop.skills)
+        self._viewers[client.client_id] = viewer
+
+    def _watch(self, client: viser.ClientHandle) -> None:
+        def take_over() -> None:
+            self._actor.post(lambda: self._take_over(client))
+
+        seat = Seat(self, client.client_id)
+        self._viewers[client.client_id] = viewers.watching(client, seat, self._arm, self.clock, take_over)
+
+    def _take_over(self, client: viser.ClientHandle) -> None:
+        former = None if self._works is None else self._viewers.get(self._works)
+        if former is not None and former.client.client_id == client.client_id:
+            return
+        self._desk.let_go(self.clock())
+        if former is not None:
+            self._watch(former.client)
+        self._work(client)
+
+    def _detach(self, client_id: int) -> None:
+        self._viewers.pop(client_id, None)
+        if client_id == self._works:
+            self._desk.let_go(self.clock())
+            self._works = None
+            waiting = next(iter(self._viewers.values()), None)
+            if waiting is not None:
+                self._work(waiting.client)
+        if not self._viewers:
+            self.empty_since = time.monotonic()
+
+    # --- what a tab asks for -----------------------------------------------------------
+
+    def post(self, client_id: int, act: Callable[[Desk, float], None]) -> None:
+        """Do something on the desk, if the tab is the one that works."""
+
+        def action() -> None:
+            if client_id == self._works:
+                self._touched = self.clock()
+                act(self._desk, self._touched)
+
+        self._actor.post(action)
+
+    def look_into(self, client_id: int, name: str, content: bytes) -> None:
+        """Read an uploaded file in a worker and offer what is in it."""
+        self.post(client_id, lambda desk, _: desk.say(f"Reading {name} …"))
+        self._files.submit(lambda: inspect_bytes(name, content), self._desk.offer_reading)
+
+    def tell(self, client_id: int, message: str) -> None:
+        """Show a warning to the tab that works here, if it is this one."""
+        self.post(client_id, lambda desk, _: desk.say(message, warning=True))
+
+    # --- in the mailbox ----------------------------------------------------------------
+
+    def _tick(self) -> bool:
+        now = self.clock()
+        dt, self._time = now - self._time, now
+        if not self._viewers:
+            return False
+        if now - self._touched > IDLE_AFTER:
+            self._desk.pause()
+        return self._desk.tick(now, min(dt, 0.2))
+
+    def _draw(self) -> None:
+        state = self._desk.state()
+        for viewer in tuple(self._viewers.values()):
+            viewer.draw(state)
+        self._plan(state)
+        self._save()
+
+    def _plan(self, state: State) -> None:
+        model, run = state.model, state.playback.run
+        if state.dragging is not None or not model.runs or self._planned == (model, run):
+            return
+        self._planned = (model, run)
+        positions = model.runs[run].reproduction.positions
+        near = state.hand.joints if self._desk.plan is None else self._desk.plan.path.joints[0]
+
+        def job() -> Plan:
+            arm = self._workshop.make_arm()
+            try:
+                return Plan(model, run, arm.follow(positions, near))
+            finally:
+                arm.close()
+
+        self._plans.submit(job, self._desk.accept_plan)
+
+    def _save(self) -> None:
+        document = self._desk.store.document
+        if document is self._desk.saving:
+            return
+        self._desk.saving = document
+
+        def done(_: None) -> None:
+            self._desk.saved = document
+
+        self._saves.submit(lambda: self._workshop.library.save(self.code, document), done)
+
+    def _save_now(self) -> None:
+        self._desk.let_go(self.clock())
+        document = self._desk.store.document
+        if document is not self._desk.saved:
+            self._workshop.library.save(self.code, document)
+            self._desk.saved = document
+
+    def _report(self, error: Exception) -> None:
+        if isinstance(error, GcError):
+            self._desk.say(str(error), warning=True)
+        else:
+            _log.error("session %s", self.code, exc_info=error)
+            self._desk.say(
+                "Something went wrong in the program, not in what you did. Your work is safe; go on, or "
+                "reload the page if something looks wrong.",
+                warning=True,
+            )
