@@ -10,7 +10,6 @@ from __future__ import annotations
 import io
 import lzma
 import math
-import tokenize
 import zipfile
 import zlib
 from collections.abc import Mapping, Sequence
@@ -128,7 +127,7 @@ def _array(name: str, content: bytes) -> NDArray[Any]:
         TypeError,
         EOFError,
         SyntaxError,
-        tokenize.TokenError,
+        TokenError,
         MemoryError,
         RecursionError,
     ) as error:

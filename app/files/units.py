@@ -72,7 +72,7 @@ def guess_frame(demonstrations: Sequence[Demonstration]) -> FrameGuess:
     points = np.concatenate([d.positions for d in demonstrations])
     distance = np.linalg.norm(points - _SHOULDER, axis=1)
     inside = (distance >= _REACH[0]) & (distance <= _REACH[1]) & (points[:, 2] >= _LOWEST)
-    share = float(np.mean(inside))
+    share = np.count_nonzero(inside) / len(points)
     if share >= 0.95:
         return FrameGuess("as recorded", "The arm can reach the motion where it was recorded.")
     return FrameGuess(

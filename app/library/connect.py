@@ -1,0 +1,107 @@
+"""From an address to a database that is ours and ready.
+
+SQLite is used in write-ahead mode: a save survives the end of the process at any
+moment, and costs no wait for the disk. A cut of the power can lose the last few
+saves, never an older one.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any, Final
+
+from platformdirs import user_data_path
+from sqlalchemy import Connection, Engine, create_engine, event, make_url
+from sqlalchemy.exc import ArgumentError, DatabaseError, NoSuchModuleError, SQLAlchemyError
+from sqlalchemy.pool import ConnectionPoolEntry, StaticPool
+
+from app.library.errors import ForeignDatabaseError, LibraryError
+from app.library.tables import prepare
+
+VARIABLE: Final = "GC_TEACH_LIBRARY"
+
+
+def default_url() -> str:
+    """Say where skills are saved: ``GC_TEACH_LIBRARY``, else a file in the user's data folder."""
+    chosen = os.environ.get(VARIABLE, "")
+    return chosen or f"sqlite:///{user_data_path('gc-teach') / 'library.db'}"
+
+
+def open_engine(url: str) -> Engine:
+    """Open a library and create its tables where there are none.
+
+    Raises
+    ------
+    LibraryError
+        If the address cannot be understood or opened, or leads to another
+        program's data; that is left as it is.
+    """
+    try:
+        address = make_url(url)
+    except ArgumentError as error:
+        raise LibraryError(
+            f"{url!r} is no address of a library. Write one like sqlite:///my-skills.db."
+        ) from error
+    where = address.render_as_string(hide_password=True)
+    backend = address.get_backend_name()
+    if backend not in ("sqlite", "postgresql"):
+        raise LibraryError(f"{where}: a library is kept in SQLite or PostgreSQL, not in {backend}.")
+    try:
+        engine = _sqlite(address.database) if backend == "sqlite" else create_engine(address)
+        _prepare(engine, where)
+    except (ImportError, NoSuchModuleError) as error:
+        raise LibraryError(
+            f"{where}: the driver of this database is missing ({error}). Install it, for instance psycopg."
+        ) from error
+    except DatabaseError as error:
+        if "not a database" in str(error.orig):
+            raise ForeignDatabaseError(where, "is no database") from error
+        raise _cannot_open(where, str(error.orig)) from error
+    except (SQLAlchemyError, OSError) as error:
+        raise _cannot_open(where, str(error)) from error
+    return engine
+
+
+def _prepare(engine: Engine, where: str) -> None:
+    try:
+        with engine.begin() as connection:
+            prepare(connection, where)
+        if engine.dialect.name == "sqlite":
+            # Only now: it writes into the file, which may have been somebody else's.
+            with engine.connect().execution_options(isolation_level="AUTOCOMMIT") as connection:
+                connection.exec_driver_sql("PRAGMA journal_mode = WAL")
+    except BaseException:
+        engine.dispose()
+        raise
+
+
+def _sqlite(database: str | None) -> Engine:
+    if not database or database == ":memory:":
+        options = {"check_same_thread": False, "isolation_level": None}
+        engine = create_engine("sqlite://", poolclass=StaticPool, connect_args=options)
+    else:
+        path = Path(database).expanduser()
+        path.parent.mkdir(parents=True, exist_ok=True)
+        engine = create_engine(f"sqlite:///{path}", connect_args={"isolation_level": None, "timeout": 10.0})
+    event.listen(engine, "connect", _set_up_connection)
+    event.listen(engine, "begin", _begin)
+    return engine
+
+
+def _set_up_connection(connection: Any, _entry: ConnectionPoolEntry) -> None:
+    connection.execute("PRAGMA foreign_keys = ON")
+    connection.execute("PRAGMA synchronous = NORMAL")
+
+
+def _begin(connection: Connection) -> None:
+    """Take the write lock at once: a reader that turns writer cannot wait for another."""
+    if connection.get_execution_options().get("isolation_level") != "AUTOCOMMIT":
+        connection.exec_driver_sql("BEGIN IMMEDIATE")
+
+
+def _cannot_open(where: str, problem: str) -> LibraryError:
+    return LibraryError(
+        f"The library {where} cannot be opened: {problem}. Check the folder and who may write there, "
+        "or choose another place with --library."
+    )
