@@ -91,7 +91,7 @@ install_unlocked() {
 }
 
 pip_install() {
-    .venv/bin/python -m pip install --quiet --disable-pip-version-check --root-user-action ignore "$@"
+    .venv/bin/python -m pip install -qq --disable-pip-version-check --root-user-action ignore "$@"
 }
 
 install_packages
