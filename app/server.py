@@ -19,7 +19,7 @@ from app.document import Document
 from app.files import inspect
 from app.library import Library
 from app.resources import static_folder
-from app.scene import draw_world
+from app.scene import draw_world, look_from_here
 from app.session import FORGOTTEN_AFTER, Session, Workshop
 from gc_core import GcError
 
@@ -80,6 +80,7 @@ class Server:
         )
         arm = make_arm()
         draw_world(self._viser.scene, arm)
+        look_from_here(self._viser.initial_camera)
         arm.close()
         self._viser.on_client_connect(self._connect)
         self._viser.on_client_disconnect(self._disconnect)
