@@ -147,7 +147,7 @@ def _clock(demonstration: Trimmed, align_by: str, grid: FloatArray) -> FloatArra
     if align_by == "time":
         return grid * demonstration.times[-1]
     # A sensor's noise must not count as path while the hand pauses.
-    gone = arc_length(smooth(demonstration.positions, len(demonstration.positions) // 100))
+    gone = arc_length(smooth(demonstration.positions, len(demonstration.positions) // 200))
     gone = gone + 1e-9 * gone[-1] * np.linspace(0.0, 1.0, len(gone))
     return np.interp(grid * gone[-1], gone, demonstration.times)
 
@@ -171,7 +171,7 @@ def _sampled(curve: FloatArray, parameter: FloatArray) -> FloatArray:
 
 def _even_parameter(mean: FloatArray, grid: FloatArray, stations: int, longest: float) -> FloatArray:
     """Parameters (N,) at which the mean curve has gone through equal lengths."""
-    gone = arc_length(smooth(mean, len(mean) // 50))
+    gone = arc_length(smooth(mean, len(mean) // 100))
     if gone[-1] <= 1e-3 * longest:
         raise OpposedDemonstrationsError(float(gone[-1]))
     gone = gone + 1e-6 * gone[-1] * grid

@@ -74,10 +74,8 @@ def same_content(a: object, b: object) -> bool:
     bool
         True when types, shapes and every value agree exactly (NaN equals NaN).
     """
-    if a is b:
-        return True
-    if type(a) is not type(b):
-        return False
+    if a is b or type(a) is not type(b):
+        return a is b
     if isinstance(a, np.ndarray):
         x, y = cast("NDArray[Any]", a), cast("NDArray[Any]", b)
         return x.dtype == y.dtype and np.array_equal(x, y, equal_nan=x.dtype.kind in "fc")

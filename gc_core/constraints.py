@@ -49,8 +49,8 @@ class Constraint:
     ) -> Constraint:
         """Make a rule of a run and its correction.
 
-        At each station where the correction v is at least 1 mm long, the plane goes through the corrected place
-        with the normal v / |v|.
+        At each station where the correction v is at least 1 mm long, the plane goes through the corrected
+        place with the normal v / |v|.
 
         Parameters
         ----------
@@ -94,8 +94,9 @@ class _Planes:
 def constrain(reproduction: Reproduction, constraints: Sequence[Constraint]) -> Reproduction:
     """Move a run to the allowed side of all rules, and no further.
 
-    At every station the nearest point of the intersection of the half-spaces is taken. Beyond the ends of a
-    corrected span, what the run was moved in excess of the teacher's own correction there fades out over 8 cm.
+    At every station the nearest point of the intersection of the half-spaces is taken. Beyond the ends of
+    a corrected span, what the run was moved in excess of the teacher's own correction there fades
+    out over 8 cm.
 
     Parameters
     ----------
@@ -126,7 +127,7 @@ def _path(run: Reproduction | FloatArray) -> FloatArray:
 
 
 def _planes(constraint: Constraint, stations: FloatArray) -> _Planes:
-    """Planes at given stations (K,): those of the nearest station of the corrected run, within half a station."""
+    """Planes at stations (K,): those of the corrected run's nearest station, within half a station."""
     edges = 0.5 * (constraint.stations[1:] + constraint.stations[:-1])
     index = np.searchsorted(edges, stations)
     here = np.abs(constraint.stations[index] - stations) <= 0.5

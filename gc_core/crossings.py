@@ -9,7 +9,7 @@ from gc_core.arrays import BoolArray, FloatArray, IntArray
 from gc_core.demonstration import Trimmed
 from gc_core.frames import arc_length
 
-KNOTS = 500
+KNOTS = 300
 """A demonstration is searched at this many of its samples, then refined on its polyline."""
 
 SEARCH = 0.2
@@ -65,8 +65,8 @@ def _cut(
     knots = np.append(np.arange(0, len(path) - 1, stride), len(path) - 1)
     gone = arc_length(path[knots])
     wanted = np.interp(samples, knots, gone)
-    ahead = path[knots] @ normals.T > offsets
-    knot, station = np.nonzero(ahead[1:] & ~ahead[:-1])
+    ahead = normals @ path[knots].T > offsets[:, None]
+    station, knot = np.divmod(np.flatnonzero(ahead[:, 1:] & ~ahead[:, :-1]), len(knots) - 1)
     away = np.abs(0.5 * (gone[knot] + gone[knot + 1]) - wanted[station])
     near = away <= SEARCH * gone[-1]
     knot, station, away = knot[near], station[near], away[near]

@@ -91,7 +91,7 @@ class GeneralizedCylinder:
 
     @cached_property
     def volume(self) -> float:
-        """Volume of the polyhedron through `surface()` with flat ends; parts covered twice count twice [m^3]."""
+        """Volume inside `surface()` with flat ends; what is covered twice counts twice [m^3]."""
         # Faces seen from a point on the directrix add up to the volume (divergence theorem).
         rings = self._surface - self.directrix[0]
         turned = np.roll(rings, -1, axis=1)
@@ -201,7 +201,7 @@ class GeneralizedCylinder:
         return angles, np.hypot(local[:, 1], local[:, 2]) / edge
 
     def _beyond(self, points: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Stations, angles and ratios (P,) in the nearest station, for points that no plane passes through."""
+        """Stations, angles and ratios (P,) in the nearest station, for points no plane passes through."""
         away = np.concatenate(
             [
                 np.argmin(np.linalg.norm(part[:, None] - self.directrix, axis=2), axis=1)
@@ -246,4 +246,4 @@ def crossing_stations(surface: FloatArray, normals: FloatArray) -> BoolArray:
 
 def _six_volumes(a: FloatArray, b: FloatArray, c: FloatArray) -> float:
     """Sum of six times the signed volumes of the tetrahedra (0, a, b, c) of broadcast corners (..., 3)."""
-    return float(np.einsum("...i,...i->", np.broadcast_to(a, b.shape), np.cross(b, c)))
+    return float((a * np.cross(b, c)).sum())

@@ -31,7 +31,9 @@ class Demonstration:
 
     Raises
     ------
-    ShapeError, TooFewSamplesError, NotFiniteError, TimesNotIncreasingError, NoMotionError, ZeroQuaternionError
+    ShapeError, TooFewSamplesError, NotFiniteError
+        When the arrays are no recording.
+    TimesNotIncreasingError, NoMotionError, ZeroQuaternionError
         Naming the demonstration and the sample.
     """
 

@@ -26,7 +26,7 @@ class Diagnostics:
     missed: BoolArray
     """(N, n) where a demonstration does not cross the section plane near its station; projected there."""
     centre_outside: BoolArray
-    """(N,) where the directrix lies outside of the hull of the effective points; the section reaches to it."""
+    """(N,) where the directrix is outside of the effective points' hull; the section reaches to it."""
     minimum_half_width: float
     """Least distance of the boundary from the directrix [m]."""
     assumed_width: bool
@@ -59,8 +59,8 @@ class Diagnostics:
         ]
         if self.assumed_width:
             said.append(
-                f"One demonstration shows no width, so the tube is {self.minimum_half_width * 200.0:.3g} cm wide "
-                "everywhere. Show the motion again to tell where it may vary."
+                "One demonstration shows no width, so the tube is "
+                f"{self.minimum_half_width * 200.0:.3g} cm wide everywhere. Show the motion again to tell where it may vary."
             )
         for count, words in (
             (self.missed.any(axis=1).sum(), "slices are not reached by every demonstration"),

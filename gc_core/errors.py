@@ -89,8 +89,8 @@ class OpposedDemonstrationsError(GcError):
 
     def __init__(self, length: float) -> None:
         super().__init__(
-            f"The middle of the demonstrations moves by {length * 1000:.3g} mm only: they cancel each other out, "
-            "as if some were shown backwards. Turn those round, or leave them out."
+            f"The middle of the demonstrations moves by {length * 1000:.3g} mm only: they cancel each other "
+            "out, as if some were shown backwards. Turn those round, or leave them out."
         )
         self.length = length
 
@@ -130,7 +130,8 @@ class LandmarkMismatchError(GcError):
 
     def __init__(self, sources: int, targets: int) -> None:
         super().__init__(
-            f"{sources} landmarks cannot be moved to {targets} places. Give each landmark exactly one new place."
+            f"{sources} landmarks cannot be moved to {targets} places. "
+            "Give each landmark exactly one new place."
         )
         self.sources = sources
         self.targets = targets

@@ -13,7 +13,7 @@ from gc_core.frames import arc_length, rotation_minimizing_frames, tangents
 from gc_core.radius import loop_radii, slope_limited, widened_to_hold
 from gc_core.registration import ThinPlateSpline
 
-SLICING_ROUNDS = 3
+SLICING_ROUNDS = 4
 """Steps along a line of the mapped surface towards the plane that should cut it."""
 
 
@@ -87,30 +87,35 @@ def _frames(cylinder: GeneralizedCylinder, directrix: FloatArray, jacobian: Floa
 def _cut_again(lines: FloatArray, directrix: FloatArray, frames: FloatArray) -> FloatArray:
     """Cut lines (N, L, 3), sampled at the stations, with the planes: section coordinates (N, L, 2).
 
-    A line that does not reach its plane is continued straight, within one step at its ends.
+    A line that does not reach its plane is continued straight by at most one step, then projected.
     """
-    turned = np.swapaxes(frames, 1, 2)
-    count = len(lines)
+    count, width = lines.shape[:2]
     normals = frames[:, :, 0]
+    flat = lines.reshape(-1, 3)
+    place = flat.copy()
+    station = np.repeat(np.arange(count), width)
     offsets = np.einsum("ij,ij->i", directrix, normals)
-    height = (lines @ normals[:, :, None])[..., 0] - offsets[:, None]
-    station = np.repeat(np.arange(count, dtype=np.float64)[:, None], lines.shape[1], axis=1)
-    place = lines
-    column = np.arange(lines.shape[1])[None, :]
-    size = 1e-12 * max(float(np.abs(height).max()), float(np.abs(directrix).max()))
+    height = (lines @ normals[:, :, None])[..., 0].ravel() - offsets[station]
+    exact = 1e-9 * float(arc_length(directrix)[-1])
+    index = np.minimum(station, count - 2)
+    index = np.where((height > 0.0) & (index > 0), index - 1, index)
+    off = np.flatnonzero(np.abs(height) > exact)
     for _ in range(SLICING_ROUNDS):
-        if np.abs(height).max() <= size:
+        if not off.size:
             break
-        index = np.clip(station.astype(np.intp), 0, count - 2)
-        low, high = lines[index, column], lines[index + 1, column]
-        step = high - low
-        rise = np.einsum("ilk,ik->il", step, normals)
-        start = np.einsum("ilk,ik->il", low, normals) - offsets[:, None]
-        part = -start / np.where(np.abs(rise) > 1e-12, rise, np.inf)
-        station = np.clip(index + np.clip(part, -3.0, 4.0), 0.0, count - 1.0)
-        place = low + np.clip(part, -1.0, 2.0)[..., None] * step
-        height = np.einsum("ilk,ik->il", place, normals) - offsets[:, None]
-    return ((place - directrix[:, None]) @ np.swapaxes(turned, 1, 2))[..., 1:]
+        plane = station[off]
+        low = flat[index[off] * width + off % width]
+        step = flat[(index[off] + 1) * width + off % width] - low
+        rise = np.einsum("ij,ij->i", step, normals[plane])
+        start = np.einsum("ij,ij->i", low, normals[plane]) - offsets[plane]
+        part = -start / np.where(np.abs(rise) > exact, rise, np.inf)
+        place[off] = low + np.clip(part, -1.0, 2.0)[:, None] * step
+        # Where the line was left by its piece, the piece that the plane should lie in is tried next.
+        beyond = (part < 0.0) | (part > 1.0)
+        off, part = off[beyond], part[beyond]
+        index[off] = np.clip(index[off] + np.floor(np.clip(part, -8.0, 8.0)).astype(np.intp), 0, count - 2)
+    local = (place.reshape(lines.shape) - directrix[:, None]) @ frames
+    return local[..., 1:]
 
 
 def _turned(quaternions: FloatArray | None, jacobian: FloatArray) -> FloatArray | None:

@@ -14,6 +14,10 @@ GREATEST_SLOPE = 2.0
 """A section widens or narrows along the curve by at most this much per length [-]."""
 
 
+FULL_SPILL = 0.1
+"""A point this far beyond the boundary, relative to it, raises the next vertices in full proportion [-]."""
+
+
 def vertex_angles(count: int) -> FloatArray:
     """Angles of the vertices, (count,) array from 0 [rad]."""
     return 2.0 * np.pi / count * np.arange(count)
@@ -104,41 +108,41 @@ def loop_radii(loops: FloatArray, count: int) -> FloatArray:
     (N, count) array
         [m].
     """
-    following = np.concatenate((loops[:, 1:], loops[:, :1]), axis=1)
-    angle = np.arctan2(loops[..., 1], loops[..., 0]) * (count / (2.0 * np.pi))
-    turn = np.concatenate((angle[:, 1:], angle[:, :1]), axis=1) - angle
-    turn = turn - count * np.round(turn / count)
+    x, y = loops[..., 0], loops[..., 1]
+    angle = np.arctan2(y, x) * (count / (2.0 * np.pi))
+    turn = _next(angle) - angle
+    turn -= count * np.round(turn / count)
     low = np.minimum(angle, angle + turn)
     # A ray through a shared vertex belongs to both edges, whatever the rounding.
     first = np.ceil(low - 1e-9).astype(np.intp).ravel()
     rays = np.floor(low + np.abs(turn) + 1e-9).astype(np.intp).ravel() - first + 1
     edge = np.repeat(np.arange(rays.size), rays)
-    ray = first[edge] + np.arange(edge.size) - np.repeat(np.cumsum(rays) - rays, rays)
-    ray = ray % count
-    reach = _edge_distance(
-        loops.reshape(-1, 2)[edge], following.reshape(-1, 2)[edge], vertex_angles(count)[ray]
-    )
+    ray = (first - np.cumsum(rays) + rays)[edge] + np.arange(edge.size)
+    ray %= count
+    along_x, along_y = _next(x) - x, _next(y) - y
+    cross = (x * along_y - y * along_x).ravel()[edge]
+    square = x * x + y * y
+    far = np.sqrt(np.maximum(square, _next(square))).ravel()[edge]
+    rounding = 1e-12 * np.hypot(along_x, along_y).ravel()[edge]
+    angles = vertex_angles(count)
+    slant = np.cos(angles)[ray] * along_y.ravel()[edge] - np.sin(angles)[ray] * along_x.ravel()[edge]
+    # An edge that points at the origin is met at its far end.
+    reach = np.where(np.abs(slant) <= rounding, far, cross / np.where(slant == 0.0, 1.0, slant))
     radii = np.zeros(len(loops) * count)
-    np.maximum.at(radii, edge // loops.shape[1] * count + ray, reach)
+    np.maximum.at(radii, edge // loops.shape[1] * count + ray, np.clip(reach, 0.0, far))
     return radii.reshape(len(loops), count)
 
 
-def _edge_distance(a: FloatArray, b: FloatArray, angle: FloatArray) -> FloatArray:
-    """Distance (K,) at which rays from the origin meet the edges a -> b (K, 2)."""
-    along = b - a
-    cross = a[:, 0] * along[:, 1] - a[:, 1] * along[:, 0]
-    slant = np.cos(angle) * along[:, 1] - np.sin(angle) * along[:, 0]
-    far = np.sqrt(np.maximum(np.einsum("ij,ij->i", a, a), np.einsum("ij,ij->i", b, b)))
-    flat = np.abs(slant) * far <= 1e-12 * np.einsum("ij,ij->i", along, along)
-    distance = np.where(flat, far, cross / np.where(flat, 1.0, slant))
-    return np.clip(distance, 0.0, far)
+def _next(values: FloatArray) -> FloatArray:
+    """Values (N, P) of the following vertex of each closed polygon."""
+    return np.concatenate((values[:, 1:], values[:, :1]), axis=1)
 
 
 def widened_to_hold(radii: FloatArray, points: FloatArray) -> FloatArray:
-    """Raise vertices until the polygons hold the points; continuous in the points.
+    """Raise vertices until the polygons hold the points.
 
-    The two vertices beside a point are scaled until their edge passes through it, the next
-    ones by a part of that, so that nothing jumps when a point moves past a vertex.
+    The two vertices beside a point are raised to the least common level at which their edge passes
+    through it; the next ones partly, so that little jumps when a point moves past a vertex.
 
     Parameters
     ----------
@@ -153,19 +157,40 @@ def widened_to_hold(radii: FloatArray, points: FloatArray) -> FloatArray:
         Nowhere less than `radii` [m].
     """
     count = radii.shape[1]
-    distance = np.sqrt(np.einsum("ijk,ijk->ij", points, points))
+    distance = np.sqrt(np.einsum("ijk,ijk->ij", points, points)) * (1.0 + 1e-9)
     index, part = bins(np.arctan2(points[..., 1], points[..., 0]), count)
     rows = np.arange(len(radii))[:, None]
-    now = chord_radius(radii[rows, index], radii[rows, (index + 1) % count], part, count)
-    lacking = distance * (1.0 + 1e-9) / now - 1.0
-    if not (lacking > 0.0).any():
+    before, after = radii[rows, index], radii[rows, (index + 1) % count]
+    outside = np.nonzero(distance > chord_radius(before, after, part, count))
+    if not outside[0].size:
         return radii
-    which = np.nonzero(lacking > 0.0)
-    row, index, part, lacking = which[0], index[which], part[which], lacking[which]
-    factor = np.ones_like(radii)
-    for offset, share in ((-1, 1.0 - part), (0, np.ones_like(part)), (1, np.ones_like(part)), (2, part)):
-        np.maximum.at(factor, (row, (index + offset) % count), 1.0 + lacking * share)
-    return radii * factor
+    row, index, part, distance = outside[0], index[outside], part[outside], distance[outside]
+    before, after = before[outside], after[outside]
+    level = _common_level(before, after, part, distance, count)
+    lacking = distance / chord_radius(before, after, part, count) - 1.0
+    spill = np.minimum(lacking / FULL_SPILL, 1.0)
+    raised = radii.copy()
+    for offset, share in ((-1, spill * (1.0 - part)), (0, 1.0), (1, 1.0), (2, spill * part)):
+        vertex = (index + offset) % count
+        now = radii[row, vertex]
+        np.maximum.at(raised, (row, vertex), now + share * np.maximum(level - now, 0.0))
+    return raised
+
+
+def _common_level(
+    before: FloatArray, after: FloatArray, part: FloatArray, distance: FloatArray, count: int
+) -> FloatArray:
+    """Least level (K,) to which two vertices must be raised for their edge to pass a point at a distance.
+
+    The edge at a part of the angle has 1 / r = weight / after + other / before.
+    """
+    step = 2.0 * np.pi / count
+    weight, other = np.sin(part * step) / np.sin(step), np.sin((1.0 - part) * step) / np.sin(step)
+    high = np.maximum(before, after)
+    high_weight = np.where(before >= after, other, weight)
+    left = 1.0 / distance - high_weight / high
+    only_low = (weight + other - high_weight) / np.where(left > 0.0, left, np.inf)
+    return np.where((left > 0.0) & (only_low <= high), only_low, distance * (weight + other))
 
 
 def slope_limited(radii: FloatArray, length: FloatArray, slope: float = GREATEST_SLOPE) -> FloatArray:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.spatial.distance import cdist
 
 from gc_core.arrays import FloatArray, IntArray, finite, read_only
 from gc_core.errors import InvalidSettingError, LandmarkMismatchError, ShapeError, ZeroQuaternionError
@@ -21,7 +22,7 @@ FLAT = 1e-6
 """Landmarks whose spread across a direction is below this part of their extent have none there [-]."""
 
 GREATEST_SHEAR = np.deg2rad(60.0)
-"""Flat or straight arrangements that turn by less are stretched and sheared; others are turned first [rad]."""
+"""Flat or straight arrangements that turn by less are sheared; others are turned first [rad]."""
 
 LEAST_STRETCH = 0.05
 """Two landmarks are never brought closer than to this part of their distance: space would collapse [-]."""
@@ -219,7 +220,7 @@ def _points(source: Landmark, target: Landmark) -> tuple[FloatArray, FloatArray]
     if source.orientation is None or target.orientation is None:
         return source.position[None], target.position[None]
     arms = FRAME_ARM * np.concatenate((np.zeros((1, 3)), np.eye(3), -np.eye(3)))
-    return tuple(mark.position + arms @ _rotation(mark).T for mark in (source, target))  # type: ignore[return-value]
+    return source.position + arms @ _rotation(source).T, target.position + arms @ _rotation(target).T
 
 
 def _affine(linear: FloatArray, origin: FloatArray, image: FloatArray, case: str) -> ThinPlateSpline:
@@ -286,15 +287,11 @@ def _solve(
 
 def _kernel(points: FloatArray, centres: FloatArray, scale: float) -> FloatArray:
     """-|x - s| / scale, (P, L) array."""
-    square = np.zeros((len(points), len(centres)))
-    for axis in range(3):
-        away = points[:, axis, None] - centres[None, :, axis]
-        square += away * away
-    return np.sqrt(square) * (-1.0 / scale)
+    return cdist(points, centres) * (-1.0 / scale)
 
 
 def _turn(source: FloatArray, target: FloatArray) -> FloatArray:
-    """Smallest rotation (3, 3) of a flat arrangement onto its target; the identity when it turns less than 60 deg."""
+    """Smallest rotation (3, 3) of a flat arrangement onto its target; identity below 60 degrees."""
     left, sizes, right = np.linalg.svd(target.T @ source)
     if sizes[0] <= SAME_PLACE**2:
         return np.eye(3)
@@ -307,7 +304,7 @@ def _turn(source: FloatArray, target: FloatArray) -> FloatArray:
 
 
 def _between(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Smallest rotation (3, 3) that takes unit vector a to b; opposite ones turn about the most upright axis."""
+    """Smallest rotation (3, 3) of unit vector a to b; opposite ones turn about the most upright axis."""
     axis, cos = np.cross(a, b), float(a @ b)
     if cos < -1.0 + 1e-9:
         up = np.array([0.0, 0.0, 1.0]) if abs(a[2]) < 0.9 else np.array([1.0, 0.0, 0.0])
@@ -343,5 +340,6 @@ def _case(count: int, rank: int, turned: bool, merged: int) -> str:
         words = "an affine map" if count == 4 else "a thin-plate spline"
     else:
         shape = "on a line" if rank == 1 else "in a plane"
-        words = f"landmarks {shape}: a {'turn, then a ' if turned else ''}thin-plate spline that keeps what is across"
+        first = "turn, then a " if turned else ""
+        words = f"landmarks {shape}: a {first}thin-plate spline that keeps what is across"
     return words + (f" ({merged} in the same place merged)" if merged else "")

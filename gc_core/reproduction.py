@@ -79,7 +79,8 @@ def reproduce(
     """Run the skill from a new start.
 
     A start inside the tube joins where it lies (first passage). A start outside joins at station 0, or at the
-    nearest station when that is clearly later and nearer; what it is off that section's plane fades out smoothly.
+    nearest station when that is clearly later and nearer; what it is off that section's plane fades
+    out smoothly.
     Several starts share the stations from the earliest join on; a run that joins later waits at its start.
 
     Parameters
@@ -252,7 +253,7 @@ def _begun_at(
     gone: FloatArray,
     length: float,
 ) -> FloatArray:
-    """Make runs (S, K, 3) begin at the starts: wait for the join, then fade out what the start is off the plane."""
+    """Make runs (S, K, 3) begin at the starts: wait for the join, then fade out the offset from its plane."""
     index = np.searchsorted(stations, joins - 1e-12)
     who = np.arange(len(starts))
     exact = stations[index] - joins < 1e-9

@@ -7,10 +7,11 @@ its centre. Kinds are functions `(points (N, n, 2), count, half_width) -> radii 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 
 import numpy as np
 
-from gc_core.arrays import FloatArray, IntArray
+from gc_core.arrays import FloatArray, IntArray, read_only
 from gc_core.errors import UnknownOptionError
 from gc_core.radius import loop_radii, slope_limited, vertex_angles, widened_to_hold
 
@@ -96,11 +97,11 @@ def ellipse(points: FloatArray, count: int, half_width: float) -> FloatArray:
 def hull(points: FloatArray, count: int, half_width: float) -> FloatArray:
     """Convex hull of the points, thickened where it is thinner than twice the half-width."""
     corners, _ = _corners(points)
-    return loop_radii(_thickened(points, corners, half_width), count)
+    return loop_radii(_thickened(points, corners, _lacking_width(points, half_width)), count)
 
 
 def closed_spline(points: FloatArray, count: int, half_width: float) -> FloatArray:
-    """Closed cubic spline through the corners of the hull, with centripetal knots; never inside the hull.
+    """Closed cubic spline through the corners of the hull, with centripetal knots.
 
     References
     ----------
@@ -109,11 +110,19 @@ def closed_spline(points: FloatArray, count: int, half_width: float) -> FloatArr
     .. [2] E. T. Y. Lee. Choosing nodes in parametric curve interpolation. CAD 21(6), 1989.
     """
     corners, n_corners = _corners(points)
-    radii = loop_radii(_thickened(points, corners, half_width), count)
-    for n in np.unique(n_corners[n_corners > 2]):
+    lacking = _lacking_width(points, half_width)
+    round_ = n_corners > 2
+    loops = np.zeros((len(points), CURVE_SAMPLES, 2))
+    for n in np.unique(n_corners[round_]):
         rows = np.flatnonzero(n_corners == n)
-        loops = np.take_along_axis(points[rows], corners[rows, :n, None], axis=1)
-        radii[rows] = np.maximum(radii[rows], loop_radii(_spline_loops(loops), count))
+        curve = _spline_loops(np.take_along_axis(points[rows], corners[rows, :n, None], axis=1))
+        loops[rows, : curve.shape[1]] = curve
+        loops[rows, curve.shape[1] :] = curve[:, -1:]
+    radii = loop_radii(loops, count)
+    thin = np.flatnonzero(~round_ | (lacking > 0.0))
+    if thin.size:
+        rounded = loop_radii(_thickened(points[thin], corners[thin], lacking[thin]), count)
+        radii[thin] = np.maximum(radii[thin], rounded)
     return radii
 
 
@@ -126,9 +135,7 @@ def _corners(points: FloatArray) -> tuple[IntArray, IntArray]:
         Corner numbers; the first `n_corners` of a row differ, the rest repeat the first.
     n_corners : (N,) integer array
     """
-    angles = vertex_angles(SUPPORT_DIRECTIONS)
-    directions = np.stack((np.cos(angles), np.sin(angles)))
-    outermost = np.argmax(points @ directions, axis=1)
+    outermost = np.argmax(points @ _directions().T, axis=1)
     fresh = outermost != np.roll(outermost, 1, axis=1)
     n_corners = np.maximum(fresh.sum(axis=1), 1)
     order = np.argsort(~fresh, axis=1, kind="stable")
@@ -137,21 +144,30 @@ def _corners(points: FloatArray) -> tuple[IntArray, IntArray]:
     return np.where(beyond, corners[:, :1], corners), n_corners
 
 
-def _thickened(points: FloatArray, corners: IntArray, half_width: float) -> FloatArray:
-    """Hull loops (N, P, 2); those thinner than the half-width to either side are rounded out to it."""
-    angles = vertex_angles(SUPPORT_DIRECTIONS)
-    directions = np.stack((np.cos(angles), np.sin(angles)), axis=1)
-    support = (points @ directions.T).max(axis=1)
+def _lacking_width(points: FloatArray, half_width: float) -> FloatArray:
+    """How far (N,) the hulls of points (N, n, 2) must grow to be twice the half-width thick everywhere."""
+    support = (points @ _directions().T).max(axis=1)
     width = support + np.roll(support, SUPPORT_DIRECTIONS // 2, axis=1)
-    lacking = np.maximum(half_width - 0.5 * width.min(axis=1), 0.0)
+    return np.maximum(half_width - 0.5 * width.min(axis=1), 0.0)
+
+
+def _thickened(points: FloatArray, corners: IntArray, lacking: FloatArray) -> FloatArray:
+    """Hull loops (N, P, 2), grown and rounded by a length each (N,)."""
     if not lacking.any():
         most = int((corners != corners[:, :1]).sum(axis=1).max()) + 1
         return np.take_along_axis(points, corners[:, :most, None], axis=1)
-    outermost = np.argmax(points @ directions.T, axis=1)
+    outermost = np.argmax(points @ _directions().T, axis=1)
     loops = np.take_along_axis(points, outermost[:, :, None], axis=1)
     # The polygon of directions lies inside the disc that it stands for.
     grown = lacking / np.cos(np.pi / SUPPORT_DIRECTIONS)
-    return loops + grown[:, None, None] * directions[None, :, :]
+    return loops + grown[:, None, None] * _directions()
+
+
+@lru_cache(maxsize=1)
+def _directions() -> FloatArray:
+    """Unit vectors (D, 2) in which the outermost points are looked for."""
+    angles = vertex_angles(SUPPORT_DIRECTIONS)
+    return read_only(np.stack((np.cos(angles), np.sin(angles)), axis=1))
 
 
 def _spline_loops(corners: FloatArray) -> FloatArray:
@@ -161,7 +177,7 @@ def _spline_loops(corners: FloatArray) -> FloatArray:
     step = np.sqrt(np.sqrt(np.einsum("ijk,ijk->ij", chord, chord)))
     step = np.maximum(step, 1e-3 * step.max(axis=1, keepdims=True))
     bend = _periodic_curvatures(chord / step[..., None], step)
-    per_piece = max(4, CURVE_SAMPLES // corners.shape[1])
+    per_piece = CURVE_SAMPLES // corners.shape[1]
     part = (np.arange(per_piece) / per_piece)[None, None, :, None]
     rest = 1.0 - part
     square = (step**2)[:, :, None, None] / 6.0
@@ -173,7 +189,7 @@ def _spline_loops(corners: FloatArray) -> FloatArray:
 
 
 def _periodic_curvatures(slope: FloatArray, step: FloatArray) -> FloatArray:
-    """Second derivatives (K, n, 2) at the knots of periodic cubics with piece slopes (K, n, 2) and steps (K, n)."""
+    """Second derivatives (K, n, 2) at the knots of periodic cubics with these slopes and steps of pieces."""
     n = step.shape[1]
     here = np.arange(n)
     before = np.roll(step, 1, axis=1)
