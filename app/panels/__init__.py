@@ -68,13 +68,13 @@ class Panels:
 
 
 def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]) -> tuple[Panel, ...]:
+    gui.set_panel_label("gc-teach")
     gui.main_panel.dock_right()
     gui.main_panel.set_width(MAIN_WIDTH)
-    header = HeaderPanel(gui, actions, skills)
+    header: tuple[Panel, ...] = (HeaderPanel(gui, actions, skills), StatusPanel(gui))
     tabs = gui.add_tab_group()
     with tabs.add_tab("Teach", viser.Icon.HAND_GRAB):
         teach: tuple[Panel, ...] = (
-            StatusPanel(gui),
             DemonstrationsPanel(gui, actions),
             OfferPanel(gui, actions),
             HandPanel(gui, actions),
@@ -86,7 +86,7 @@ def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]
         landmarks = LandmarksPanel(gui, actions)
     with tabs.add_tab("Fix", viser.Icon.TOOL):
         rules = RulesPanel(gui, actions)
-    return (header, *teach, starts, landmarks, rules)
+    return (*header, *teach, starts, landmarks, rules)
 
 
 def _side(gui: viser.GuiApi, actions: Actions) -> tuple[Panel, ...]:

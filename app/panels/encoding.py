@@ -8,7 +8,7 @@ import viser
 
 from app import edits
 from app.actions import Actions
-from app.binding import Binding, Changed, anything, assign, on_press, one_of
+from app.binding import QUIET, STRONG, Binding, Changed, anything, assign, on_press, one_of
 from app.document import Alignment, SectionKind
 from app.model import Model
 from app.panels import words
@@ -17,11 +17,9 @@ from app.store import State
 PICTURES: Final[Mapping[SectionKind, tuple[str, viser.IconName]]] = {
     "circle": ("Circle", viser.Icon.CIRCLE),
     "ellipse": ("Ellipse", viser.Icon.OVAL),
-    "closed_spline": ("Free shape (closed spline)", viser.Icon.EGG),
+    "closed_spline": ("Free shape (closed spline)", viser.Icon.VECTOR_SPLINE),
 }
 ALIGNMENT_WORDS: Final[Mapping[str, Alignment]] = {"way (arc length)": "arc_length", "time": "time"}
-CHOSEN: Final = (31, 63, 168)
-OTHER: Final = "gray"
 
 
 class EncodingPanel:
@@ -47,7 +45,7 @@ class EncodingPanel:
         """Mark the chosen kind and state the facts."""
         chosen = state.document.settings.section
         for kind, button in self._kinds.items():
-            assign(button, color=CHOSEN if kind == chosen else OTHER)
+            assign(button, color=STRONG if kind == chosen else QUIET)
         for binding in self._bindings:
             binding.draw(state)
         if self._changed(state.model):

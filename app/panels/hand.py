@@ -14,7 +14,8 @@ from app.store import State
 
 JOG: Final = 0.01
 """One press of a button [m]."""
-BUTTONS: Final = ("− x", "+ x", "− y", "+ y", "− z", "+ z")
+UP: Final = ("+ x", "+ y", "+ z")
+DOWN: Final = ("− x", "− y", "− z")
 
 
 class HandPanel:
@@ -30,8 +31,8 @@ class HandPanel:
             write=actions.move_hand,
             hint="x, y, z. Moves the hand without recording; the next demonstration begins there.",
         )
-        group = gui.add_button_group("by 1 cm", BUTTONS, hint="Moves the hand without recording.")
-        on_choice(group, self._jog)
+        for label, names, step in (("by + 1 cm", UP, JOG), ("by − 1 cm", DOWN, -JOG)):
+            on_choice(gui.add_button_group(label, names), partial(self._jog, step))
         self._gripper = _gripper(gui, partial(_look, actions))
 
     def draw(self, state: State) -> None:
@@ -40,10 +41,8 @@ class HandPanel:
         self._position.draw(state)
         self._gripper.draw(state)
 
-    def _jog(self, place: int) -> None:
-        step = np.zeros(3)
-        step[place // 2] = JOG if place % 2 else -JOG
-        self._actions.move_hand(self._at + step)
+    def _jog(self, step: float, axis: int) -> None:
+        self._actions.move_hand(self._at + step * np.eye(3)[axis])
 
 
 def _gripper(gui: viser.GuiApi, write: Callable[[bool], None]) -> Binding[bool]:

@@ -8,10 +8,10 @@ import viser
 
 from app import edits
 from app.actions import Actions
-from app.binding import Binding, assign, on_press, one_of
+from app.binding import QUIET, Binding, assign, on_press, one_of
 from app.store import State
 
-CHOOSE: Final = "Open another…"
+CHOOSE: Final = "another skill…"
 OWN: Final = "Teach your own"
 
 
@@ -32,17 +32,15 @@ class HeaderPanel:
             typed=True,
         )
         names = {OWN: ""} | {shown: name for name, shown in skills}
-        menu = gui.add_dropdown(
-            "Skills", (CHOOSE, *(shown for _, shown in skills), OWN), initial_value=CHOOSE
-        )
+        menu = gui.add_dropdown("Open", (CHOOSE, *(shown for _, shown in skills), OWN), initial_value=CHOOSE)
         self._menu: Binding[str] = Binding(
             menu,
             read=lambda _: CHOOSE,
             write=lambda shown: actions.open_skill(names[shown]),
             accept=one_of(names),
         )
-        self._undo = gui.add_button("Undo", icon=viser.Icon.ARROW_BACK_UP, color="gray", disabled=True)
-        self._redo = gui.add_button("Redo", icon=viser.Icon.ARROW_FORWARD_UP, color="gray", visible=False)
+        self._undo = gui.add_button("Undo", icon=viser.Icon.ARROW_BACK_UP, color=QUIET, disabled=True)
+        self._redo = gui.add_button("Redo", icon=viser.Icon.ARROW_FORWARD_UP, color=QUIET, visible=False)
         on_press(self._undo, actions.undo)
         on_press(self._redo, actions.redo)
 

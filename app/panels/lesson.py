@@ -8,7 +8,7 @@ from typing import Final
 import viser
 
 from app.actions import Actions
-from app.binding import Changed, assign, on_press
+from app.binding import STRONG, Changed, assign, on_press
 from app.document import Document
 from app.panels import words
 from app.resources import static_folder
@@ -40,7 +40,7 @@ class LessonPanel:
         self._changed = Changed()
         self._tried: frozenset[str] = frozenset()
         self._document: Document | None = None
-        button = gui.add_button(OWN, icon=viser.Icon.SCHOOL, color=(31, 63, 168))
+        button = gui.add_button(OWN, icon=viser.Icon.SCHOOL, color=STRONG)
         on_press(button, lambda: actions.open_skill(""))
 
     def draw(self, state: State) -> None:

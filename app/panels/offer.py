@@ -5,7 +5,7 @@ from typing import Any, Final, cast, get_args
 import viser
 
 from app.actions import Actions
-from app.binding import Binding, Changed, assign, on_choice, one_of
+from app.binding import QUIET, Binding, Changed, assign, on_choice, one_of
 from app.files import FRAMES, Frame, Unit
 from app.panels import words
 from app.store import State
@@ -25,7 +25,7 @@ class OfferPanel:
         self._frame: Frame = FRAMES[0]
         self._changed = Changed()
         self._upload = gui.add_upload_button(
-            "Add a recording…", icon=viser.Icon.UPLOAD, color="gray", mime_type=SUFFIXES
+            "Add a recording…", icon=viser.Icon.UPLOAD, color=QUIET, mime_type=SUFFIXES
         )
         self._upload.on_upload(self._uploaded)
         self._box = gui.add_folder("Recording", visible=False)

@@ -31,12 +31,12 @@ class RulesPanel:
         gui.add_html(words.note(words.escape(HOW)))
         self._width: Binding[float] = Binding(
             gui.add_slider(
-                "Pull width",
+                "Pull width [cm]",
                 NARROWEST,
                 WIDEST,
                 1.0,
                 20.0,
-                hint="How far along the line a pull reaches to either side [cm].",
+                hint="How far along the line a pull reaches to either side.",
             ),
             read=lambda state: round(100.0 * state.view.pull_width, 1),
             write=lambda width: actions.look(pull_width=width / 100.0),

@@ -9,7 +9,7 @@ import viser
 
 from app import edits
 from app.actions import Actions
-from app.binding import Changed, Rows, assign, on_choice, on_press
+from app.binding import QUIET, Changed, Rows, assign, on_choice, on_press
 from app.document import Document, FloatArray
 from app.model import Model
 from app.panels import words
@@ -35,7 +35,7 @@ class StartsPanel:
         self._changed = Changed()
         gui.add_html(words.note("Drag the magenta ball, or type where a new run (reproduction) begins."))
         self._rows = Rows(gui.add_folder(None), partial(StartRow, gui, actions))
-        self._add = gui.add_button("Add another start", icon=viser.Icon.PLUS, color="gray")
+        self._add = gui.add_button("Add another start", icon=viser.Icon.PLUS, color=QUIET)
         on_press(self._add, self._add_start)
         self._ratio = gui.add_html("")
 
@@ -82,6 +82,7 @@ class StartRow:
     def draw(self, state: State) -> None:
         """Show the place."""
         self._state = state
+        assign(self._group, options=(PLAY, REMOVE) if state.document.starts else (PLAY,))
         self._position.draw(state)
 
     def _read(self, state: State) -> FloatArray:

@@ -1,4 +1,4 @@
-"""One line on top of Teach: what just happened, what was learned, or what is in the way."""
+"""One line above the tabs, where it is always seen: what just happened, or what is in the way."""
 
 from typing import Final
 
@@ -10,10 +10,11 @@ from app.store import State
 
 AMBER: Final = "#b45309"
 RED: Final = "#C4161C"
+RECORDING: Final = "&#9679; Recording. Let go when the motion is done."
 
 
 class StatusPanel:
-    """Recording, a message, or what the model holds."""
+    """Recording, a message, or a warning."""
 
     def __init__(self, gui: viser.GuiApi) -> None:
         self._line = gui.add_html("")
@@ -21,16 +22,15 @@ class StatusPanel:
 
     def draw(self, state: State) -> None:
         """Say the most urgent of these things."""
-        if self._changed(state.message, state.warning, state.model, state.hand.recording is None):
+        if self._changed(state.message, state.warning, state.hand.recording is None):
             assign(self._line, content=status(state))
 
 
 def status(state: State) -> str:
-    """Build the line as HTML; what the person wrote is escaped."""
+    """Build the line as HTML, two lines high so that the tabs stay where they are; text is escaped."""
     if state.hand.recording is not None:
-        return words.note("&#9679; Recording. Let go when the motion is done.", strong=True, color=RED)
-    message, learned = state.message, words.taught(state.model)
-    said = words.note(words.escape(message), strong=True, color=AMBER if state.warning else "inherit")
-    if message == learned:
-        return said
-    return (said if message else "") + words.note(words.escape(learned))
+        line = words.note(RECORDING, strong=True, color=RED)
+    else:
+        color = AMBER if state.warning else "inherit"
+        line = words.note(words.escape(state.message), strong=True, color=color)
+    return f'<div role="status" style="min-height:3rem">{line}</div>'

@@ -11,6 +11,7 @@ from app.store import State
 
 SPEED_WORDS: Final = ("¼×", "½×", "1×", "2×")
 PLAY, PAUSE = "Play", "Pause"
+PLAYING, PAUSED = "Playing", "Paused"
 LOOP: Final = "Loop"
 STEP: Final = 0.01
 """Of the playhead [s]."""
@@ -33,7 +34,7 @@ class TimelinePanel:
             typed=True,
         )
         self._buttons = gui.add_button_group(
-            "Play", (PLAY, *SPEED_WORDS, LOOP), hint="The space bar plays and pauses, too."
+            PAUSED, (PLAY, *SPEED_WORDS, LOOP), hint="The space bar plays and pauses, too."
         )
         on_choice(self._buttons, self._press)
         self._runs = gui.add_button_group(
@@ -51,7 +52,11 @@ class TimelinePanel:
             assign(self._slider, max=duration)
         self._time.draw(state)
         assign(self._slider, disabled=playback.duration == 0.0)
-        assign(self._buttons, options=_options(playback.playing, view.speed, view.loop))
+        assign(
+            self._buttons,
+            label=PLAYING if playback.playing else PAUSED,
+            options=_options(playback.playing, view.speed, view.loop),
+        )
         runs = len(state.model.runs)
         assign(self._runs, visible=runs > 1)
         if runs > 1:

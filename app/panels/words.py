@@ -71,13 +71,13 @@ def bending(model: Model) -> str:
     names = [anchor.name for anchor in anchors if distance(anchor) > 5e-4]
     if not names:
         return "Nothing was moved: the tube is as it was taught. Drag the goal, or type where it should be."
-    listed = " and ".join(names) if len(names) < 3 else ", ".join(names[:-1]) + " and " + names[-1]
+    listed = " and the ".join(names) if len(names) < 3 else ", ".join(names[:-1]) + " and " + names[-1]
     how = (
         ""
         if model.registration is None
         else f" How the tube follows (generalization): {model.registration.case}."
     )
-    return f"You moved {listed}; nothing was taught again.{how}"
+    return f"You moved the {listed}; nothing was taught again.{how}"
 
 
 def taught(model: Model) -> str:
