@@ -36,10 +36,14 @@ make_debian() {
 # How this machine reaches the package registries: the same files in the same places, whatever they say.
 carry_over_network() {
     local file
+    local apt=()
     cp -L /etc/resolv.conf /etc/hosts "$root/etc/"
-    for file in /etc/pip.conf /etc/xdg/pip /root/.config/pip /root/.pip /etc/apt/sources.list \
-        /etc/apt/sources.list.d /etc/apt/apt.conf.d /etc/apt/auth.conf.d /etc/apt/keyrings \
-        /usr/share/keyrings /etc/ssl/certs /usr/local/share/ca-certificates; do
+    # Another distribution's sources would make another distribution of it.
+    if grep -q '^VERSION_CODENAME=bookworm' /etc/os-release && grep -q '^ID=debian' /etc/os-release; then
+        apt=(/etc/apt/sources.list /etc/apt/sources.list.d /usr/share/keyrings /etc/apt/keyrings)
+    fi
+    for file in "${apt[@]}" /etc/apt/apt.conf.d /etc/apt/auth.conf.d /etc/pip.conf /etc/xdg/pip \
+        /root/.config/pip /root/.pip /etc/ssl/certs /usr/local/share/ca-certificates; do
         if [ -e "$file" ]; then
             mkdir -p "$root$(dirname "$file")"
             cp -aL "$file" "$root$(dirname "$file")/" 2>/dev/null || true
@@ -52,7 +56,7 @@ carry_over_network() {
 bind_local_packages() {
     local folder
     for folder in $({ cat /etc/pip.conf /etc/xdg/pip/pip.conf /root/.config/pip/pip.conf /root/.pip/pip.conf \
-        2>/dev/null || true; env | grep '^PIP_' || true; } | tr ' =' '\n\n' \
+        2>/dev/null || true; env | grep '^PIP_' || true; } | sed 's/[ =]/\n/g' \
         | sed -n -e 's|^file://\(/.*\)|\1|p' -e 's|^\(/.*\)|\1|p' | sort -u); do
         if [ -d "$folder" ] && [ ! -e "$root$folder" ]; then
             mkdir -p "$root$folder"
@@ -99,7 +103,8 @@ try_run() {
 # The process that listens, inside the chroot, is the one that SIGTERM is for.
 stop_server() {
     local pid
-    for pid in $(ls /proc | grep -E '^[0-9]+$'); do
+    for pid in /proc/[0-9]*; do
+        pid=${pid#/proc/}
         if [ "$(readlink "/proc/$pid/root" 2>/dev/null)" = "$root" ] \
             && tr '\0' ' ' <"/proc/$pid/cmdline" 2>/dev/null | grep -q 'gc-teach serve'; then
             kill -TERM "$pid" 2>/dev/null || true
