@@ -1,6 +1,5 @@
 """The hand without a mouse: where it is, one centimetre this way or that, open or closed."""
 
-from collections.abc import Callable
 from functools import partial
 from typing import Final
 
@@ -33,7 +32,7 @@ class HandPanel:
         )
         for label, names, step in (("by + 1 cm", UP, JOG), ("by − 1 cm", DOWN, -JOG)):
             on_choice(gui.add_button_group(label, names), partial(self._jog, step))
-        self._gripper = _gripper(gui, partial(_look, actions))
+        self._gripper = _gripper(gui, actions)
 
     def draw(self, state: State) -> None:
         """Show where the hand is."""
@@ -45,14 +44,10 @@ class HandPanel:
         self._actions.move_hand(self._at + step * np.eye(3)[axis])
 
 
-def _gripper(gui: viser.GuiApi, write: Callable[[bool], None]) -> Binding[bool]:
+def _gripper(gui: viser.GuiApi, actions: Actions) -> Binding[bool]:
     return Binding(
         gui.add_checkbox("Hand closed", False, hint="Key G. Also works while you pull the hand."),
         read=lambda state: state.view.gripper_closed,
-        write=write,
+        write=lambda _: actions.toggle_gripper(),  # an accepted event is always a change
         accept=anything,
     )
-
-
-def _look(actions: Actions, closed: bool) -> None:
-    actions.look(gripper_closed=closed)

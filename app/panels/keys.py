@@ -22,7 +22,7 @@ class Keys:
         on_command(self._undo, actions.undo)
         on_command(self._redo, actions.redo)
         on_command(play, self._toggle_play)
-        on_command(gripper, self._toggle_gripper)
+        on_command(gripper, actions.toggle_gripper)
 
     def draw(self, state: State) -> None:
         """Name what undo and redo would do."""
@@ -33,7 +33,3 @@ class Keys:
     def _toggle_play(self) -> None:
         if self._state is not None:
             self._actions.play(not self._state.playback.playing)
-
-    def _toggle_gripper(self) -> None:
-        if self._state is not None:
-            self._actions.look(gripper_closed=not self._state.view.gripper_closed)

@@ -1,7 +1,6 @@
 """Move: landmarks, and how the tube follows them."""
 
 from functools import partial
-from typing import Final
 
 import viser
 
@@ -13,8 +12,6 @@ from app.model import Anchor
 from app.panels import words
 from app.panels.position_field import PositionField
 from app.store import State
-
-BACK: Final = "Put back"
 
 
 class LandmarksPanel:
@@ -43,7 +40,7 @@ class LandmarkRow:
         self._position = PositionField(
             gui, f"Landmark {index + 1}", read=self._read, write=self._move, hint="x, y, z in cm."
         )
-        self._group = gui.add_button_group(" ", (BACK,), visible=False)
+        self._group = gui.add_button_group(" ", ("Put back",), visible=False)
         on_choice(self._group, self._put_back)
 
     def show(self, visible: bool) -> None:
@@ -59,7 +56,8 @@ class LandmarkRow:
             self._anchor = anchor
             moved = words.distance(anchor) > 5e-4
             assign(self._position.handle, label=f"{anchor.name.capitalize()} [cm]")
-            assign(self._group, visible=moved, label=words.moved(anchor))
+            options = (f"Put {anchor.name} back",)
+            assign(self._group, visible=moved, label=words.moved(anchor), options=options)
         self._position.draw(state)
 
     def _read(self, state: State) -> FloatArray:

@@ -41,8 +41,9 @@ class OfferPanel:
         if self._changed(offer):
             assign(self._box, visible=offer is not None)
             if offer is not None:
-                self._unit, self._frame = offer.unit, FRAMES[0]
-                assign(self._summary, content=words.note(words.escape(offer.summary)))
+                self._unit, self._frame = offer.unit, offer.frame
+                found = f"{offer.name}: {offer.summary} {offer.unit_reason} {offer.frame_reason}"
+                assign(self._summary, content=words.note(words.escape(found)))
         for binding in self._bindings:
             binding.draw(state)
 

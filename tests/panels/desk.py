@@ -2,46 +2,79 @@
 
 from __future__ import annotations
 
+import queue
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from app.document import Document, Shown, View
 from app.model import Model, learn
+from app.panels import Panels
 from app.store import Hand, Playback, State
 from gc_core import Demonstration
+from tests.support.fake_client import FakeClient
+
+SKILLS = (("reaching", "Reaching"), ("needle", "Needle"))
+
+Call = tuple[str, tuple[Any, ...]]
 
 
-@dataclass
 class Notes:
-    """`Actions` as a list of calls: (name, arguments)."""
+    """`Actions` that only take notes: (name, arguments), in order."""
 
-    calls: list[tuple[str, tuple[Any, ...]]] = field(default_factory=list)
+    def __init__(self) -> None:
+        self._calls: queue.Queue[Call] = queue.Queue()
 
     def __getattr__(self, name: str) -> Callable[..., None]:
         def call(*args: Any, **changes: Any) -> None:
-            self.calls.append((name, (*args, *changes.items())))
+            self._calls.put((name, (*args, *changes.items())))
 
         return call
 
-    def named(self, name: str) -> list[tuple[Any, ...]]:
-        """Arguments of the calls of one action."""
-        return [arguments for called, arguments in self.calls if called == name]
+    def next(self) -> Call:
+        """Wait for the next call and take it."""
+        return self._calls.get(timeout=5.0)
+
+    def none(self) -> bool:
+        """Whether no call waits."""
+        return self._calls.empty()
+
+
+@dataclass
+class Bench:
+    """Panels, what they post, and the tab that shows them."""
+
+    panels: Panels
+    notes: Notes
+    client: FakeClient
+
+    def draw(self, state: State) -> State:
+        """Draw and wait until the tab shows it."""
+        self.panels.draw(state)
+        self.client.wait_quiet(0.1)
+        return state
 
     def edited(self, document: Document) -> Document:
-        """The document after all posted edits."""
-        for change, *_ in self.named("edit"):
-            document = change(document)
-        return document
+        """A document after the next posted edit."""
+        name, (change, *_) = self.notes.next()
+        assert name == "edit"
+        return change(document)
+
+    def only_undo_is_posted(self) -> bool:
+        """Press undo, which arrives after everything before it, and see that nothing else did."""
+        self.client.press("Undo: move goal")
+        return self.notes.next() == ("undo", ()) and self.notes.none()
 
 
 def reach(number: int, count: int = 5, duration: float = 3.0) -> Demonstration:
     """A reach from above that begins somewhere on a circle and ends near one place."""
     share = np.linspace(0.0, 1.0, 80)[:, None]
     turn = 2.0 * np.pi * number / count
-    start = np.array([0.25, -0.30, 0.55]) + 0.09 * np.array([np.cos(turn), np.sin(turn), 0.2 * np.sin(2.0 * turn)])
+    start = np.array([0.25, -0.30, 0.55]) + 0.09 * np.array(
+        [np.cos(turn), np.sin(turn), 0.2 * np.sin(2.0 * turn)]
+    )
     goal = np.array([-0.10, -0.48, 0.12]) + 0.012 * np.array([np.cos(turn), np.sin(turn), 0.0])
     bow = 0.08 * np.sin(np.pi * share) * np.array([0.3, -0.5, 1.0])
     return Demonstration(
@@ -65,5 +98,6 @@ def state_of(document: Document, previous: Model | None = None, **changes: Any) 
         model=model,
         hand=Hand(joints=np.zeros(6), position=np.array([0.2, -0.3, 0.4])),
         playback=Playback(time=0.4 * duration, duration=duration),
+        undo_name="move goal",
     )
     return replace(state, **changes)
