@@ -29,9 +29,13 @@ _NEAR_LIMIT = 0.02
 """A joint this near to its limit is what stops the arm [rad]."""
 _NEAR_BODY = 0.004
 """Bodies nearer than the safe distance plus this are what stops the arm [m]."""
-_CREEPING = 2e-4
-"""A joint step below this in a tick is no motion any more [rad]."""
-_COLUMN = (urdf.BASE_LINK, urdf.MOVING_LINKS[0])
+_CREEPING = 1e-4
+"""A tool that moves less than this in a tick has come to rest [m]."""
+_COLUMN_RADIUS, _COLUMN_TOP = 0.2, 0.35
+"""Around the base and below the shoulder there is no room for the hand [m]."""
+_IN_THE_WAY = 0.2
+"""A target farther away than this is not reached by making room, but by another way [m]."""
+_NO_WAY = "no way from here: lead the hand around the base"
 
 
 class Jaco:
@@ -139,17 +143,19 @@ class Jaco:
 
     def _obstacle(self, joints: FloatArray, target: FloatArray) -> str:
         """Say what keeps the tool from a target inside the shell."""
-        after = self._use().drag(joints, SHELL.project(target), 0.01)
-        if np.abs(after - joints).max() > _CREEPING:
+        solver = self._use()
+        after = solver.drag(joints, SHELL.project(target), 0.01)
+        if np.linalg.norm(solver.tip(after) - solver.tip(joints)) > _CREEPING:
             return "still on its way"
-        distance, *bodies = self._use().closest_bodies(joints)
-        if distance < SAFE_DISTANCE + _NEAR_BODY:
-            touching = any(body.startswith(_COLUMN) for body in bodies)
-            return "too close to its own base" if touching else "its own arm is in the way"
+        if np.linalg.norm(target[:2]) < _COLUMN_RADIUS and target[2] < _COLUMN_TOP:
+            return "too close to its own base"
+        if solver.closest_bodies(joints)[0] < SAFE_DISTANCE + _NEAR_BODY:
+            near = np.linalg.norm(solver.tip(joints) - target) < _IN_THE_WAY
+            return "its own arm is in the way" if near else _NO_WAY
         room = np.minimum(joints - self.lower, self.upper - joints)
         if room.min() < _NEAR_LIMIT:
             return f"joint {int(room.argmin()) + 1} at its limit"
-        return "no way from here: lead the hand around the base"
+        return _NO_WAY
 
     def _joints(self, joints: npt.ArrayLike) -> FloatArray:
         return joints_of(joints, self._kinematics.lower, self._kinematics.upper)

@@ -49,8 +49,10 @@ class Solver:
         self._robot.load_collision_pairs(str(folder / urdf.PAIRS_FILE))
         self._bodies: list[str] = [str(body.name) for body in self._robot.collision_model.geometryObjects]
         self._columns = [self._robot.get_joint_offset(name) for name in urdf.JOINT_NAMES]
-        self._careful = _Tasks(self._robot, posture, avoid=True)
-        self._free = _Tasks(self._robot, posture, avoid=False)
+        self._posture = posture
+        self._endless = self.kinematics.upper >= urdf.ENDLESS
+        self._careful = _Tasks(self._robot, avoid=True)
+        self._free = _Tasks(self._robot, avoid=False)
 
     def tip(self, joints: FloatArray) -> FloatArray:
         """Give the (3,) position of the tool [m]."""
@@ -65,6 +67,7 @@ class Solver:
     def drag(self, joints: FloatArray, target: FloatArray, dt: float) -> FloatArray:
         """Move the tool towards a reachable target for one tick of ``dt`` seconds."""
         self._place(joints)
+        self._careful.rest_at(self._posture_near(joints))
         self._robot.set_velocity_limits(DRAG_SPEED)
         self._careful.solver.dt = dt / _SOLVES_PER_TICK
         self._careful.position.target_world = target
@@ -99,6 +102,7 @@ class Solver:
         tasks.solver.dt = 1.0
         self._robot.set_velocity_limits(_TRUST)
         self._place(start)
+        tasks.rest_at(self._posture_near(start))
         joints, errors = np.empty((len(positions), len(start))), np.empty(len(positions))
         for index, position in enumerate(positions):
             errors[index] = self._converge(tasks, position, _FIRST if index == 0 else _OTHERS)
@@ -135,6 +139,11 @@ class Solver:
         self._robot.update_kinematics()
         return moved
 
+    def _posture_near(self, joints: FloatArray) -> FloatArray:
+        """Give the posture with as many turns of the endless joints as they have made."""
+        turns = np.round((joints - self._posture) / (2.0 * np.pi))
+        return self._posture + np.where(self._endless, 2.0 * np.pi * turns, 0.0)
+
     def _place(self, joints: FloatArray) -> None:
         state = self._robot.state.q.copy()
         state[self._columns] = np.clip(joints, self.kinematics.lower, self.kinematics.upper)
@@ -155,7 +164,7 @@ def _min_distance(pair: Any) -> float:
 class _Tasks:
     """What one quadratic program wants: position first, tool down a little, posture hardly."""
 
-    def __init__(self, robot: Any, posture: FloatArray, *, avoid: bool) -> None:
+    def __init__(self, robot: Any, *, avoid: bool) -> None:
         self.solver = _placo.KinematicsSolver(robot)
         self.solver.mask_fbase(True)
         # "soft" throughout: a hard position has no solution where the arm cannot reach.
@@ -164,9 +173,9 @@ class _Tasks:
         upwards = np.array([0.0, 0.0, 1.0])
         axis = self.solver.add_axisalign_task(urdf.TOOL, upwards, -upwards)
         axis.configure("tool down", "soft", _TOOL_DOWN)
-        rest = self.solver.add_joints_task()
-        rest.set_joints(dict(zip(urdf.JOINT_NAMES, posture.tolist(), strict=True)))
-        rest.configure("posture", "soft", _POSTURE)
+        self._rest = self.solver.add_joints_task()
+        self._rest.set_joints(dict.fromkeys(urdf.JOINT_NAMES, 0.0))
+        self._rest.configure("posture", "soft", _POSTURE)
         self.damping = self.solver.add_regularization_task(_DAMPING)
         self.solver.enable_joint_limits(True)
         self.solver.enable_velocity_limits(True)
@@ -175,6 +184,10 @@ class _Tasks:
             apart.configure("apart", "soft", _AVOID)
             apart.self_collisions_margin = SAFE_DISTANCE
             apart.self_collisions_trigger = _TRIGGER
+
+    def rest_at(self, posture: FloatArray) -> None:
+        """Prefer this posture where position and tool leave a choice."""
+        self._rest.set_joints(dict(zip(urdf.JOINT_NAMES, posture.tolist(), strict=True)))
 
 
 class SolverPool:
