@@ -1,0 +1,114 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gc_core import (
+    Demonstration,
+    GcError,
+    NoMotionError,
+    NotFiniteError,
+    ShapeError,
+    TimesNotIncreasingError,
+    TooFewSamplesError,
+    ZeroQuaternionError,
+    encode,
+)
+from gc_core.demonstration import trim
+
+T = np.linspace(0.0, 1.0, 11)
+P = np.outer(T, [0.3, 0.1, 0.0])
+
+
+def replaced(array: np.ndarray, index: int, value: float) -> np.ndarray:
+    copy = array.copy()
+    copy[index] = value
+    return copy
+
+
+@pytest.mark.parametrize(
+    ("error", "arguments"),
+    [
+        (ShapeError, {"times": T, "positions": P[:, :2]}),
+        (ShapeError, {"times": T[:-1], "positions": P}),
+        (ShapeError, {"times": T, "positions": [[1.0, 2.0, 3.0], [1.0]]}),
+        (ShapeError, {"times": T, "positions": P, "orientations": np.ones((11, 3))}),
+        (ShapeError, {"times": T, "positions": P, "gripper": np.ones(10)}),
+        (TooFewSamplesError, {"times": [], "positions": np.zeros((0, 3))}),
+        (TooFewSamplesError, {"times": [0.0], "positions": [[0.0, 0.0, 0.0]]}),
+        (NotFiniteError, {"times": T, "positions": replaced(P, 4, np.nan)}),
+        (NotFiniteError, {"times": replaced(T, 10, np.inf), "positions": P}),
+        (TimesNotIncreasingError, {"times": replaced(T, 5, T[4]), "positions": P}),
+        (NoMotionError, {"times": [0.0, 1.0], "positions": [[1.0, 2.0, 3.0], [1.0, 2.0, 3.0]]}),
+        (
+            ZeroQuaternionError,
+            {"times": T, "positions": P, "orientations": replaced(np.ones((11, 4)), 3, 0.0)},
+        ),
+    ],
+)
+def test_each_fault_has_its_own_error_that_names_the_demonstration(
+    error: type[GcError], arguments: dict
+) -> None:
+    with pytest.raises(error, match="'pour the tea'") as caught:
+        Demonstration(**arguments, name="pour the tea")
+
+    assert str(caught.value).count(".") >= 2, "what is wrong, and what to do"
+
+
+def test_the_fault_is_located() -> None:
+    with pytest.raises(NotFiniteError, match="sample 4"):
+        Demonstration(T, replaced(P, 4, np.nan))
+
+
+def test_a_demonstration_does_not_follow_the_arrays_it_was_made_of() -> None:
+    positions = P.copy()
+    demonstration = Demonstration(T, positions)
+    positions[0] = 9.0
+
+    np.testing.assert_array_equal(demonstration.positions, P)
+
+
+def test_a_demonstration_cannot_be_written_to() -> None:
+    with pytest.raises(ValueError, match="read-only"):
+        Demonstration(T, P).positions[0] = 0.0
+
+
+def test_quaternions_become_sign_continuous() -> None:
+    quaternions = np.tile([1.0, 0.0, 0.0, 0.0], (11, 1)) * (-1.0) ** np.arange(11)[:, None]
+
+    orientations = Demonstration(T, P, orientations=quaternions).orientations
+
+    assert orientations is not None
+    assert (np.einsum("ij,ij->i", orientations[1:], orientations[:-1]) > 0.0).all()
+
+
+def with_pauses(start: int, end: int, noise: float = 0.0) -> Demonstration:
+    moving = np.outer(np.linspace(0.0, 1.0, 200), [0.4, 0.2, 0.0])
+    path = np.concatenate((np.repeat(moving[:1], start, axis=0), moving, np.repeat(moving[-1:], end, axis=0)))
+    path = path + noise * np.random.default_rng(0).normal(size=path.shape)
+    return Demonstration(0.01 * np.arange(len(path)), path)
+
+
+def test_standing_still_is_cut_at_both_ends_and_reported() -> None:
+    trimmed = trim(with_pauses(80, 150))
+
+    np.testing.assert_allclose((trimmed.cut_start, trimmed.cut_end), (0.8, 1.5), atol=0.05)
+
+
+def test_the_true_ends_are_kept_when_standing_still_is_cut() -> None:
+    demonstration = with_pauses(80, 150, noise=1e-5)
+    trimmed = trim(demonstration)
+
+    np.testing.assert_array_equal(trimmed.positions[[0, -1]], demonstration.positions[[0, -1]])
+
+
+def test_an_evenly_moving_demonstration_is_not_cut() -> None:
+    assert len(trim(with_pauses(0, 0)).times) == 200
+
+
+def test_trimming_leaves_the_demonstration_as_it_was() -> None:
+    demonstration = with_pauses(50, 50)
+    before = demonstration.positions.copy()
+    encode([demonstration])
+
+    np.testing.assert_array_equal(demonstration.positions, before)

@@ -1,0 +1,175 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.interpolate import RBFInterpolator
+
+from gc_core import InvalidSettingError, Landmark, LandmarkMismatchError, ThinPlateSpline, register
+from gc_core.registration import quaternion_matrices
+from tests.core.shapes import rotation, seeds
+
+EVERYWHERE = np.random.default_rng(0).uniform(-0.5, 0.5, size=(200, 3))
+
+
+def landmarks(seed: int, count: int) -> np.ndarray:
+    return np.random.default_rng(seed).uniform(-0.5, 0.5, size=(count, 3))
+
+
+@given(seed=seeds, count=st.integers(0, 8))
+def test_the_map_is_the_identity_when_nothing_moves(seed: int, count: int) -> None:
+    marks = landmarks(seed, count)
+
+    np.testing.assert_allclose(register(marks, marks)(EVERYWHERE), EVERYWHERE, atol=1e-7)
+
+
+@given(seed=seeds, count=st.integers(1, 9))
+def test_the_map_meets_its_targets_exactly(seed: int, count: int) -> None:
+    source, target = landmarks(seed, count), landmarks(seed + 1, count)
+    spline = register(source, target)
+
+    np.testing.assert_allclose(spline(source), target, atol=1e-7)
+    assert spline.residual < 1e-7
+
+
+@given(seed=seeds, count=st.integers(4, 9))
+def test_affine_maps_are_found_exactly(seed: int, count: int) -> None:
+    source = landmarks(seed, count) + np.arange(count)[:, None] % 4 * np.eye(4, 3)[np.arange(count) % 4]
+    linear = np.random.default_rng(seed).normal(size=(3, 3))
+    spline = register(source, source @ linear.T + 1.0)
+
+    np.testing.assert_allclose(spline(EVERYWHERE), EVERYWHERE @ linear.T + 1.0, atol=1e-6)
+    assert spline.bending_energy < 1e-9
+
+
+@given(seed=seeds)
+def test_one_landmark_translates(seed: int) -> None:
+    (a,), (b,) = landmarks(seed, 1), landmarks(seed + 1, 1)
+
+    np.testing.assert_allclose(
+        register([Landmark(a)], [Landmark(b)])(EVERYWHERE), EVERYWHERE + b - a, atol=1e-12
+    )
+
+
+def frame(seed: int) -> Landmark:
+    rng = np.random.default_rng(seed)
+    return Landmark(rng.normal(size=3), rng.normal(size=4))
+
+
+@given(seed=seeds)
+def test_one_frame_moves_rigidly(seed: int) -> None:
+    jacobian = register([frame(seed)], [frame(seed + 1)]).jacobian(EVERYWHERE[:1])[0]
+
+    np.testing.assert_allclose(jacobian @ jacobian.T, np.eye(3), atol=1e-9)
+    assert np.linalg.det(jacobian) > 0.0
+
+
+@settings(deadline=None)
+@given(seed=seeds)
+def test_frames_take_their_axes_along(seed: int) -> None:
+    source, target = [frame(seed), frame(seed + 1)], [frame(seed + 2), frame(seed + 3)]
+    spline = register(source, target)
+    arm = register(source[:1], target[:1])
+
+    np.testing.assert_allclose(spline(source[0].position[None]), target[0].position[None], atol=1e-7)
+    assert source[0].orientation is not None
+    axis = source[0].position + 0.1 * quaternion_matrices(source[0].orientation)[:, 1]
+    np.testing.assert_allclose(spline(axis[None]), arm(axis[None]), atol=1e-7)
+
+
+@given(seed=seeds)
+def test_two_landmarks_never_turn_space_inside_out(seed: int) -> None:
+    source, target = landmarks(seed, 2), landmarks(seed + 1, 2)
+
+    assert np.linalg.det(register(source, target).linear) > 0.0
+
+
+@given(seed=seeds, stretch=st.floats(0.3, 3.0))
+def test_two_landmarks_moved_apart_stretch_along_their_chord_only(seed: int, stretch: float) -> None:
+    source = landmarks(seed, 2)
+    spline = register(source, stretch * source)
+    across = np.cross(source[1] - source[0], [0.3, 0.5, 0.7])
+
+    np.testing.assert_allclose(spline.linear @ across, across, atol=1e-9)
+
+
+def test_two_landmarks_that_swap_turn_half_a_circle() -> None:
+    source = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
+    spline = register(source, source[::-1])
+
+    np.testing.assert_allclose(spline.linear @ spline.linear.T, np.eye(3), atol=1e-9)
+    assert "turn" in spline.case
+
+
+@pytest.mark.parametrize(
+    ("source", "target"),
+    [
+        ([[0, 0, 0], [0, 0, 0]], [[1, 0, 0], [1, 0, 0]]),
+        ([[0, 0, 0], [0, 0, 0]], [[1, 0, 0], [0, 1, 0]]),
+        ([[0, 0, 0], [1, 0, 0]], [[1, 1, 1], [1, 1, 1]]),
+        ([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 0, 0], [1, 1, 0], [2, 0, 0]]),
+        ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [1, 0, 1], [0, 1, 0]]),
+        ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], [[0, 0, 0], [-1, 0, 0], [0, -1, 0], [-1, -1, 0.2]]),
+        (
+            [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 1]],
+            [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 2]],
+        ),
+    ],
+)
+def test_every_degenerate_layout_gives_a_finite_map_that_says_its_case(source: list, target: list) -> None:
+    spline = register(np.array(source, dtype=float), np.array(target, dtype=float))
+
+    assert np.isfinite(spline(EVERYWHERE)).all()
+    assert np.linalg.det(spline.linear) > 0.0
+    assert spline.case
+
+
+@settings(deadline=None)
+@given(seed=seeds, count=st.integers(5, 9), regularization=st.sampled_from([0.0, 0.1, 1.0]))
+def test_the_spline_is_scipy_s_with_the_scaled_domain(seed: int, count: int, regularization: float) -> None:
+    source, target = landmarks(seed, count), landmarks(seed + 1, count)
+    ours = ThinPlateSpline.fit(source, target, regularization)
+    theirs = RBFInterpolator(
+        source / ours.scale, target, kernel="linear", degree=1, smoothing=regularization
+    )(EVERYWHERE / ours.scale)
+
+    np.testing.assert_allclose(ours(EVERYWHERE), theirs, atol=1e-6)
+
+
+@given(seed=seeds)
+def test_more_regularization_bends_less_and_misses_more(seed: int) -> None:
+    source, target = landmarks(seed, 7), landmarks(seed + 1, 7)
+    stiff, soft = (ThinPlateSpline.fit(source, target, value) for value in (1.0, 0.01))
+
+    assert stiff.bending_energy <= soft.bending_energy + 1e-12
+    assert stiff.residual >= soft.residual - 1e-12
+
+
+@given(seed=seeds, count=st.integers(1, 8))
+def test_the_jacobian_is_the_derivative(seed: int, count: int) -> None:
+    spline = register(landmarks(seed, count), landmarks(seed + 1, count))
+    points, step = landmarks(seed + 2, 20) + 2.0, 1e-5
+    differences = [
+        (spline(points + step * axis) - spline(points - step * axis)) / (2 * step) for axis in np.eye(3)
+    ]
+
+    np.testing.assert_allclose(spline.jacobian(points), np.stack(differences, axis=2), atol=1e-6)
+
+
+def test_landmarks_must_be_paired() -> None:
+    with pytest.raises(LandmarkMismatchError):
+        register(landmarks(0, 2), landmarks(0, 3))
+
+
+def test_regularization_must_not_be_negative() -> None:
+    with pytest.raises(InvalidSettingError):
+        register(landmarks(0, 2), landmarks(1, 2), -1.0)
+
+
+def test_a_rotation_of_a_flat_layout_is_found_whole() -> None:
+    source = landmarks(0, 4) * [1.0, 1.0, 0.0]
+    turn = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+
+    np.testing.assert_allclose(register(source, source @ turn.T)(EVERYWHERE), EVERYWHERE @ turn.T, atol=1e-7)
+    assert rotation(0).shape == turn.shape
