@@ -24,8 +24,8 @@ LONGEST_GAP = 0.1
 """After a longer silence of the events the pointer is taken to have stood still [s]."""
 USUAL_GAP = 0.05
 """What it is taken to have moved for when it began again: the browser's usual interval [s]."""
-CATCH_UP = 1.1
-"""How fast the hand makes up for time lost to a late event; 1 is the pointer's own pace."""
+HURRY = 0.1
+"""The hand goes this share faster or slower than the pointer to keep its lag."""
 SETTLE_TIME = 0.6
 """The longest time the hand is given to arrive after the last event [s]."""
 ARRIVED = 0.001
@@ -35,13 +35,11 @@ STOPPED = 2e-5
 
 _TICK = 1.0 / TICKS_PER_SECOND
 _MARGIN = 0.01
-"""The hand stays this much further behind, so that a slightly late event does not stop it [s]."""
+"""The hand stays the longest recent interval and this much behind: late events do not stop it [s]."""
 _SLACK = 0.02
-"""A lag of the longest recent interval and this much is no time lost [s]."""
+"""That lag may be exceeded by this before the hand hurries [s]."""
 _MEMORY = 1.0
 """Recent is what the hand came past within this time [s]."""
-_ROUNDING = 1e-6
-"""Keeps 0.29 s, which times 100 is 28.999..., on its own tick."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +95,7 @@ def begin(arm: Arm, joints: FloatArray, time: float) -> Servo:
     tick = _tick_at(time)
     now = tick / TICKS_PER_SECOND
     waypoint = np.concatenate([[now], arm.tool_pose(joints)[:3, 3]])
-    return Servo(tick, np.array(joints, dtype=np.float64), now - _MARGIN, waypoint[None], np.empty((0, 4)))
+    return Servo(tick, np.array(joints, dtype=np.float64), now, waypoint[None], np.empty((0, 4)))
 
 
 def advance(servo: Servo, arm: Arm, targets: npt.ArrayLike, until: float) -> tuple[Servo, Motion]:
@@ -212,7 +210,7 @@ def _one_tick(servo: Servo, arm: Arm) -> Servo:
     tick = servo.tick + 1
     now = tick / TICKS_PER_SECOND
     arrivals = np.maximum.accumulate(servo.pending[:, 0])
-    n_arrived = int(np.searchsorted(arrivals, now + _ROUNDING, side="right"))
+    n_arrived = int(np.searchsorted(arrivals, now, side="right"))
     reference, waypoints = servo.reference, servo.waypoints
     for event in servo.pending[:n_arrived]:
         reference, waypoints = _arrive(reference, waypoints, event)
@@ -230,7 +228,7 @@ def _arrive(reference: float, waypoints: FloatArray, event: FloatArray) -> tuple
     if event[0] - last[0] > LONGEST_GAP:
         # The hand is at the last waypoint by now, so nothing moves when its time jumps.
         rest = np.concatenate([[event[0] - USUAL_GAP], last[1:]])
-        return max(reference, float(rest[0]) - _MARGIN), np.vstack([waypoints, rest, event])
+        return max(reference, float(rest[0])), np.vstack([waypoints, rest, event])
     if event[0] <= last[0]:
         # Two events in one instant: the later one holds.
         return reference, np.vstack([waypoints[:-1], np.concatenate([last[:1], event[1:]])])
@@ -240,9 +238,10 @@ def _arrive(reference: float, waypoints: FloatArray, event: FloatArray) -> tuple
 def _proceed(reference: float, waypoints: FloatArray, now: float) -> float:
     """Advance the hand's event time by a tick, but never past the last event."""
     gaps = np.diff(waypoints[:, 0])
-    longest = float(gaps[gaps <= LONGEST_GAP].max(initial=USUAL_GAP))
-    behind = now - _TICK - reference > longest + _SLACK
-    return min(reference + _TICK * (CATCH_UP if behind else 1.0), float(waypoints[-1, 0]))
+    wanted_lag = float(gaps[gaps <= LONGEST_GAP].max(initial=USUAL_GAP)) + _MARGIN
+    lag = now - reference - _TICK
+    hurry = HURRY * (float(lag > wanted_lag + _SLACK) - float(lag < wanted_lag))
+    return min(reference + _TICK * (1.0 + hurry), float(waypoints[-1, 0]))
 
 
 def _motion(arm: Arm, steps: list[Servo], n_joints: int) -> Motion:
@@ -257,4 +256,7 @@ def _tool_motion(arm: Arm, ticks: npt.NDArray[np.intp], joints: FloatArray) -> M
 
 
 def _tick_at(time: float) -> int:
-    return math.floor((time + _ROUNDING) * TICKS_PER_SECOND)
+    """Give the last tick that is not later than a time."""
+    # Compared, not only multiplied: 0.29 s times 100 is 28.999...
+    tick = round(time * TICKS_PER_SECOND)
+    return tick if tick / TICKS_PER_SECOND <= time else tick - 1
