@@ -7,7 +7,7 @@ import viser
 
 from app import edits
 from app.actions import Actions
-from app.binding import Binding, Changed, Rows, anything, assign, on_choice
+from app.binding import Binding, Rows, anything, assign, on_choice
 from app.document import Document, Shown
 from app.panels import words
 from app.store import State
@@ -21,14 +21,10 @@ class DemonstrationsPanel:
     """One folder a demonstration; folders are reused."""
 
     def __init__(self, gui: viser.GuiApi, actions: Actions) -> None:
-        self._learned = gui.add_html("")
-        self._changed = Changed()
         self._rows = Rows(gui.add_folder(None), partial(DemonstrationRow, gui, actions))
 
     def draw(self, state: State) -> None:
-        """Follow the list, and say what was learned from it."""
-        if self._changed(state.model):
-            assign(self._learned, content=words.note(words.escape(words.taught(state.model))))
+        """Follow the list."""
         for row in self._rows.fit(len(state.document.demonstrations)):
             row.draw(state)
 

@@ -14,7 +14,7 @@ from app.panels import words
 from app.resources import static_folder
 from app.store import State
 
-DONE: Final = '<span style="color:#1A9E73;font-weight:700">&#10003;</span>'
+DONE: Final = '<span style="color:light-dark(#157f5c,#19B98C);font-weight:700">&#10003;</span>'
 OPEN: Final = '<span style="opacity:0.55">&#9675;</span>'
 SHORTEST: Final = 0.05
 """A recording from here on counts as a try [m]."""

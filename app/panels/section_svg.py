@@ -15,9 +15,10 @@ FOOT: Final = 22.0
 """Room below for the scale bar [px]."""
 BAR_LENGTHS: Final = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
 """The scale bar has one of these lengths [m]."""
-RED: Final = "#C4161C"
-BLUE: Final = "#1F3FA8"
-MAGENTA: Final = "#E04BDC"
+RED: Final = "light-dark(#C4161C,#FF5A4F)"
+BLUE: Final = "light-dark(#1F3FA8,#6E8BFF)"
+MAGENTA: Final = "light-dark(#E04BDC,#F59BF2)"
+"""Of the light and the dark theme; a function of CSS, so only for `style`."""
 
 
 def section_svg(cylinder: GeneralizedCylinder, station: int, reproduction: Reproduction | None) -> str:
@@ -46,7 +47,7 @@ def section_svg(cylinder: GeneralizedCylinder, station: int, reproduction: Repro
         f'<polygon points="{_joined(boundary)}" fill="#8a8f98" fill-opacity="0.22" stroke="#8a8f98" '
         'stroke-width="1.5"/>',
         *_ray(cylinder, station, reproduction, scale),
-        *(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.2" fill="{RED}"/>' for x, y in points.tolist()),
+        *(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.2" style="fill:{RED}"/>' for x, y in points.tolist()),
         _cross(),
         _bar(scale),
         "</svg>",
@@ -114,11 +115,11 @@ def _ray(
     point = _local(cylinder, station, reproduction.positions[index][None])
     (px, py), (ex, ey) = _pixels(np.concatenate([point, _edge(cylinder, station, point)]), scale).tolist()
     cx, cy = 0.5 * WIDTH, 0.5 * (HEIGHT - FOOT)
-    line = f'<line x1="{cx:.1f}" y1="{cy:.1f}" stroke="{MAGENTA}" '
+    line = f'<line x1="{cx:.1f}" y1="{cy:.1f}" style="stroke:{MAGENTA}" '
     return [
         f'{line}x2="{ex:.1f}" y2="{ey:.1f}" stroke-width="1.2" stroke-dasharray="3 3"/>',
         f'{line}x2="{px:.1f}" y2="{py:.1f}" stroke-width="2.2"/>',
-        f'<circle cx="{px:.1f}" cy="{py:.1f}" r="5" fill="{MAGENTA}"/>',
+        f'<circle cx="{px:.1f}" cy="{py:.1f}" r="5" style="fill:{MAGENTA}"/>',
     ]
 
 
@@ -140,7 +141,7 @@ def _open(station: int, stations: int) -> str:
 
 def _cross() -> str:
     x, y = 0.5 * WIDTH, 0.5 * (HEIGHT - FOOT)
-    return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4.2" fill="{BLUE}"/>'
+    return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4.2" style="fill:{BLUE}"/>'
 
 
 def _bar(scale: float) -> str:

@@ -1,4 +1,4 @@
-"""One line above the tabs, where it is always seen: what just happened, or what is in the way."""
+"""Above the tabs, where it is always seen: what happened, what is in the way, or what was learned."""
 
 from typing import Final
 
@@ -8,13 +8,13 @@ from app.binding import Changed, assign
 from app.panels import words
 from app.store import State
 
-AMBER: Final = "#b45309"
-RED: Final = "#C4161C"
+AMBER: Final = "light-dark(#b45309,#fbbf24)"
+RED: Final = "light-dark(#C4161C,#FF5A4F)"
 RECORDING: Final = "&#9679; Recording. Let go when the motion is done."
 
 
 class StatusPanel:
-    """Recording, a message, or a warning."""
+    """Recording, a message, a warning, or what was learned."""
 
     def __init__(self, gui: viser.GuiApi) -> None:
         self._line = gui.add_html("")
@@ -22,7 +22,7 @@ class StatusPanel:
 
     def draw(self, state: State) -> None:
         """Say the most urgent of these things."""
-        if self._changed(state.message, state.warning, state.hand.recording is None):
+        if self._changed(state.message, state.warning, state.model, state.hand.recording is None):
             assign(self._line, content=status(state))
 
 
@@ -31,6 +31,8 @@ def status(state: State) -> str:
     if state.hand.recording is not None:
         line = words.note(RECORDING, strong=True, color=RED)
     else:
+        # The lesson shows what the skill is about; here would be the same sentence again.
+        message = "" if state.message == state.document.about else state.message
         color = AMBER if state.warning else "inherit"
-        line = words.note(words.escape(state.message), strong=True, color=color)
+        line = words.note(words.escape(message or words.taught(state.model)), strong=True, color=color)
     return f'<div role="status" style="min-height:3rem">{line}</div>'

@@ -50,6 +50,14 @@ def test_recording_is_said_before_anything_else() -> None:
     assert "Saved." in status(state_of(taught(), message="Saved."))
 
 
+def test_what_was_learned_is_said_when_there_is_nothing_newer() -> None:
+    quiet, about = (state_of(taught(), message=message) for message in ("", taught().about))
+
+    assert "Learned from 5" in status(quiet)
+    assert status(quiet) == status(about)
+    assert "Learned from 5" not in status(state_of(taught(), message="Saved."))
+
+
 def test_a_moved_start_and_a_moved_goal_are_ticked_off() -> None:
     document = taught()
     start = edits.move_start(document, 0, np.array([0.3, -0.3, 0.5]))
