@@ -6,6 +6,7 @@ changes a document: a pull or a click becomes a call of `app.actions.Actions`.
 """
 
 from app.scene.scene import Scene
-from app.scene.world import FIELD_OF_VIEW, VIEWS, Viewpoint, draw_world, look_from_here
+from app.scene.view import FIELD_OF_VIEW, VIEWS, Viewpoint, look_from_here
+from app.scene.world import draw_world
 
 __all__ = ["FIELD_OF_VIEW", "VIEWS", "Scene", "Viewpoint", "draw_world", "look_from_here"]

@@ -14,7 +14,7 @@ from app.document import FloatArray
 from app.scene.geometry import quaternions
 from app.store import State
 
-STILL: Final = 1e-6
+STILL: Final = 1e-4
 """A change of a pose below this is not worth a message [m, -]."""
 
 

@@ -18,7 +18,7 @@ from gc_core import GeneralizedCylinder
 AT_REST: Final = (100, 32)
 """Stations and angles of the drawn tube."""
 WHILE_DRAGGING: Final = (60, 24)
-DOT_SIZE: Final = 0.012
+DOT_SIZE: Final = 0.008
 
 
 class Tube:
@@ -63,19 +63,27 @@ class Directrix:
         self._actions = actions
         self._bound = False
         self._cylinder: GeneralizedCylinder | None = None
+        self._picked: GeneralizedCylinder | None = None
         self._state: State | None = None
 
     def draw(self, state: State) -> None:
         """Draw the middle line of the cylinder."""
         self._state = state
-        if state.model.cylinder is self._cylinder:
+        cylinder = state.model.cylinder
+        if cylinder is not None and cylinder is not self._picked and not (state.dragging and self._bound):
+            self._draw_pick(cylinder)
+        if cylinder is self._cylinder:
             return
-        self._cylinder = state.model.cylinder
-        if self._cylinder is None:
+        self._cylinder = cylinder
+        if cylinder is None:
             self._line.hide()
-            return
-        self._line.show(segments(self._cylinder.directrix))
-        handle = self._pick.show(*pick_tube(self._cylinder.directrix, PICK_RADIUS))
+        else:
+            self._line.show(segments(cylinder.directrix))
+
+    def _draw_pick(self, cylinder: GeneralizedCylinder) -> None:
+        """Invisible; waits for the release of what is dragged."""
+        self._picked = cylinder
+        handle = self._pick.show(*pick_tube(cylinder.directrix, PICK_RADIUS))
         if not self._bound:
             handle.on_click(self._on_click)
             self._bound = True

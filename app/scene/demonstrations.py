@@ -10,7 +10,7 @@ from app.document import Shown
 from app.scene.geometry import dashes, pick_tube, segments, thin_out
 from app.scene.nodes import Line, Mesh
 from app.scene.pulls import bind_pull
-from app.scene.style import DEMONSTRATION, MUTED, PICK_RADIUS
+from app.scene.style import DEMONSTRATION, MUTED, PICK_RADIUS, THIN
 from app.store import State
 
 MOST_POINTS: Final = 600
@@ -55,10 +55,8 @@ class _Demonstration:
             bind_pull(handle, self._actions, self._clock)
             self._bound = True
         visible = thin_out(positions, MOST_POINTS)
-        if shown.muted:
-            self._line.show(dashes(visible), color=MUTED)
-        else:
-            self._line.show(segments(visible), color=DEMONSTRATION)
+        self._line.look(MUTED if shown.muted else DEMONSTRATION, THIN)
+        self._line.show(dashes(visible) if shown.muted else segments(visible))
 
 
 def _same(one: Shown, other: Shown) -> bool:

@@ -267,6 +267,12 @@ def quaternions(rotations: FloatArray) -> FloatArray:
     return q / np.linalg.norm(q, axis=1, keepdims=True)
 
 
+def facing(direction: FloatArray) -> FloatArray:
+    """(4,) wxyz of a rotation that turns +z into a unit vector (3,)."""
+    z, aside, up = across(direction[None])
+    return quaternions(np.stack([aside, up, z], axis=-1))[0]
+
+
 def nearest_to_ray(points: FloatArray, origin: FloatArray, direction: FloatArray, reach: float) -> int:
     """Find the point that somebody who looks along a ray means.
 

@@ -9,18 +9,21 @@ import viser
 from app.actions import Actions
 from app.document import FloatArray
 from app.scene.geometry import circle, dashes, segments, thin_out
+from app.scene.grip import Grip
 from app.scene.nodes import Ball, Label, Line
 from app.scene.pulls import bind_pull
 from app.scene.style import (
     DEMONSTRATION,
-    GHOST_OPACITY,
     GHOST_RADIUS,
     GUIDE,
     HAND,
+    HAND_GRIP,
     HAND_RADIUS,
     THICK,
     WARNING,
+    WARNING_GHOST,
 )
+from app.scene.view import Eye
 from app.store import Hand, State
 
 MOST_POINTS: Final = 400
@@ -31,21 +34,26 @@ _BESIDE: Final = np.array([0.02, 0.0, 0.03])
 class HandBall:
     """``/hand``: neutral, amber while it cannot follow."""
 
-    def __init__(self, api: viser.SceneApi, actions: Actions, clock: Callable[[], float]) -> None:
+    def __init__(self, api: viser.SceneApi, actions: Actions, clock: Callable[[], float], eye: Eye) -> None:
         self._ball = Ball(api, "/hand", radius=HAND_RADIUS, color=HAND)
-        self._actions, self._clock = actions, clock
+        self._grip = Grip(api, "/hand", HAND_RADIUS, HAND_GRIP)
+        self._actions, self._clock, self._eye = actions, clock, eye
         self._bound = False
         self._hand: Hand | None = None
 
     def draw(self, state: State) -> None:
         """Put the ball at the tool tip."""
         hand = state.hand
+        self._draw_ball(hand)
+        self._grip.aim(hand.position, self._eye.position)
+
+    def _draw_ball(self, hand: Hand) -> None:
         if hand is self._hand:
             return
         self._hand = hand
         handle = self._ball.show(hand.position, color=WARNING if hand.shortfall else HAND)
         if not self._bound:
-            bind_pull(handle, self._actions, self._clock, aside=True)
+            bind_pull(handle, self._actions, self._clock, ball=True, aside=True)
             self._bound = True
 
 
@@ -53,7 +61,7 @@ class Shortage:
     """``/wanted/…``: where the pointer wants the hand, a dashed tether to it, and the reason."""
 
     def __init__(self, api: viser.SceneApi) -> None:
-        self._ghost = Ball(api, "/wanted/ghost", radius=GHOST_RADIUS, color=WARNING, opacity=GHOST_OPACITY)
+        self._ghost = Ball(api, "/wanted/ghost", radius=GHOST_RADIUS, color=WARNING_GHOST)
         self._tether = Line(api, "/wanted/tether", color=WARNING)
         self._reason = Label(api, "/wanted/reason")
         self._hand: Hand | None = None

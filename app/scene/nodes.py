@@ -23,29 +23,35 @@ class Line:
         self._api, self._name = api, name
         self._color, self._thickness = color, thickness
         self._handle: viser.LineSegmentsHandle | None = None
+        self._visible = False
 
-    def show(
-        self, segments: FloatArray, *, color: Color | None = None, thickness: float | None = None
-    ) -> None:
+    def show(self, segments: FloatArray) -> None:
         """Draw segments (k, 2, 3) [m]; none at all hides the line."""
         if len(segments) == 0:
             self.hide()
             return
-        self._color, self._thickness = color or self._color, thickness or self._thickness
         if self._handle is None:
             self._handle = self._api.add_line_segments(
                 self._name, segments, self._color, thickness=self._thickness, thickness_units="screen"
             )
+            self._visible = True
             return
         self._handle.points = segments.astype(np.float32)
-        self._handle.colors = np.array(self._color, dtype=np.uint8)
-        self._handle.thickness = self._thickness
-        self._handle.visible = True
+        if not self._visible:
+            self._visible = self._handle.visible = True
+
+    def look(self, color: Color, thickness: float) -> None:
+        """Change how it looks, from the next time that it is shown."""
+        if self._handle is not None:
+            if color != self._color:
+                self._handle.colors = np.array(color, dtype=np.uint8)
+            self._handle.thickness = thickness
+        self._color, self._thickness = color, thickness
 
     def hide(self) -> None:
         """Take it out of sight."""
-        if self._handle is not None:
-            self._handle.visible = False
+        if self._handle is not None and self._visible:
+            self._visible = self._handle.visible = False
 
 
 class Mesh:
@@ -54,25 +60,29 @@ class Mesh:
     def __init__(self, api: viser.SceneApi, name: str, **looks: Any) -> None:
         self._api, self._name = api, name
         self._looks: dict[str, Any] = {"cast_shadow": False, "receive_shadow": False, **looks}
+        self._vertices: Vertices | None = None
         self._faces: Faces | None = None
+        self._visible = False
         self._handle: viser.MeshHandle | None = None
 
     def show(self, vertices: Vertices, faces: Faces) -> viser.MeshHandle:
-        """Draw it; the same faces object is not sent again."""
+        """Draw it; the same objects are not sent again."""
         if self._handle is None:
             self._handle = self._api.add_mesh_simple(self._name, vertices, faces, **self._looks)
-        else:
+            self._vertices, self._faces, self._visible = vertices, faces, True
+        if vertices is not self._vertices:
             self._handle.vertices = vertices
-            if faces is not self._faces:
-                self._handle.faces = faces
-            self._handle.visible = True
-        self._faces = faces
+        if faces is not self._faces:
+            self._handle.faces = faces
+        if not self._visible:
+            self._visible = self._handle.visible = True
+        self._vertices, self._faces = vertices, faces
         return self._handle
 
     def hide(self) -> None:
         """Take it out of sight."""
-        if self._handle is not None:
-            self._handle.visible = False
+        if self._handle is not None and self._visible:
+            self._visible = self._handle.visible = False
 
     @property
     def handle(self) -> viser.MeshHandle | None:
@@ -81,42 +91,47 @@ class Mesh:
 
 
 class Ball:
-    """A sphere of one size."""
+    """A sphere."""
 
-    def __init__(
-        self, api: viser.SceneApi, name: str, *, radius: float, color: Color, opacity: float | None = None
-    ) -> None:
+    def __init__(self, api: viser.SceneApi, name: str, *, radius: float, color: Color) -> None:
         self._api, self._name = api, name
-        self._radius, self._color, self._opacity = radius, color, opacity
+        self._radius, self._color = radius, color
+        self._scale = 1.0
+        self._visible = False
         self._handle: viser.IcosphereHandle | None = None
 
     def show(
         self, position: FloatArray, *, color: Color | None = None, scale: float = 1.0
     ) -> viser.IcosphereHandle:
         """Put it at a position (3,) [m]."""
-        if self._handle is None:
-            self._handle = self._api.add_icosphere(
-                self._name,
-                radius=self._radius,
-                color=color or self._color,
-                opacity=self._opacity,
-                scale=scale,
-                subdivisions=3,
-                cast_shadow=False,
-                receive_shadow=False,
-                position=position,
-            )
-            return self._handle
-        self._handle.position = position
-        self._handle.color = color or self._color
-        self._handle.scale = scale
-        self._handle.visible = True
+        color = color or self._color
+        handle = self._handle or self._add(position)
+        handle.position = position
+        if color != self._color:
+            handle.color = self._color = color
+        if scale != self._scale:
+            handle.scale = self._scale = scale
+        if not self._visible:
+            self._visible = handle.visible = True
+        return handle
+
+    def _add(self, position: FloatArray) -> viser.IcosphereHandle:
+        self._visible = True
+        self._handle = self._api.add_icosphere(
+            self._name,
+            radius=self._radius,
+            color=self._color,
+            subdivisions=3,
+            cast_shadow=False,
+            receive_shadow=False,
+            position=position,
+        )
         return self._handle
 
     def hide(self) -> None:
         """Take it out of sight."""
-        if self._handle is not None:
-            self._handle.visible = False
+        if self._handle is not None and self._visible:
+            self._visible = self._handle.visible = False
 
 
 class Label:
@@ -124,18 +139,21 @@ class Label:
 
     def __init__(self, api: viser.SceneApi, name: str) -> None:
         self._api, self._name = api, name
+        self._visible = False
         self._handle: viser.LabelHandle | None = None
 
     def show(self, position: FloatArray, text: str) -> None:
         """Write a text next to a position (3,) [m]."""
         if self._handle is None:
             self._handle = self._api.add_label(self._name, text, position=position, anchor="bottom-left")
+            self._visible = True
             return
         self._handle.position = position
         self._handle.text = text
-        self._handle.visible = True
+        if not self._visible:
+            self._visible = self._handle.visible = True
 
     def hide(self) -> None:
         """Take it out of sight."""
-        if self._handle is not None:
-            self._handle.visible = False
+        if self._handle is not None and self._visible:
+            self._visible = self._handle.visible = False

@@ -3,6 +3,10 @@
 viser validates nothing that a page sends, so a position that is not finite or not
 near the robot goes no further. A pull that began always ends, even when its last event
 is bad: then with the last good one.
+
+viser moves the pointer in a plane through the point that was hit, which lies on the near
+side of a ball. Seen in perspective, the ball would then fall behind the pointer; so the
+pointer of a ball is projected into the plane through its middle.
 """
 
 from collections.abc import Callable, Coroutine
@@ -10,6 +14,7 @@ from dataclasses import replace
 from typing import Any, Final, Protocol, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 import viser
 
 from app.actions import Actions, Drag
@@ -29,12 +34,17 @@ class Pullable(Protocol):
         """In the scene."""
         ...
 
+    @property
+    def position(self) -> FloatArray:
+        """(3,) origin [m]."""
+        ...
+
     def on_drag(self, button: Any = ..., *, modifier: Any = ...) -> Any:
         """Register a callback for the pulls with one button and modifier."""
         ...
 
 
-def checked_point(values: tuple[float, ...]) -> FloatArray | None:
+def checked_point(values: npt.ArrayLike) -> FloatArray | None:
     """(3,) the point [m], or None when it is not three finite numbers within `FARTHEST`."""
     try:
         point = np.asarray(values, dtype=np.float64)
@@ -44,19 +54,61 @@ def checked_point(values: tuple[float, ...]) -> FloatArray | None:
     return point if near else None
 
 
-def bind_pull(handle: Pullable, actions: Actions, clock: Callable[[], float], *, aside: bool = False) -> None:
-    """Let a node be pulled: freely, with Shift up and down, and ``aside`` with the right button too."""
-    pull = _Pull(handle.name, actions, clock)
+def bind_pull(
+    handle: Pullable,
+    actions: Actions,
+    clock: Callable[[], float],
+    *,
+    ball: bool = False,
+    aside: bool = False,
+) -> None:
+    """Let a node be pulled: freely, and with Shift up and down.
+
+    Parameters
+    ----------
+    handle
+        Of viser.
+    actions
+        Gets every checked event.
+    clock
+        Session time now [s].
+    ball
+        Whether it is pulled at its origin, wherever it was hit.
+    aside
+        Whether the right button pulls too.
+    """
+    pull = _Pull(handle, actions, clock, ball)
     for button in ("left", "right") if aside else ("left",):
         for modifier in (None, "shift"):
             handle.on_drag(button, modifier=modifier)(pull.callback())
 
 
+def depth_ratio(camera: FloatArray, look_at: FloatArray, hit: FloatArray, origin: FloatArray) -> float:
+    """How much farther from the camera an origin is than the point that was hit, along the view.
+
+    Parameters
+    ----------
+    camera, look_at, hit, origin : (3,) array
+        [m].
+
+    Returns
+    -------
+    float
+        1 where the camera makes no sense: it came from the page.
+    """
+    ahead = look_at - camera
+    near, far = float((hit - camera) @ ahead), float((origin - camera) @ ahead)
+    ratio = far / near if near > 0.0 else 1.0
+    return ratio if 0.5 < ratio < 2.0 else 1.0
+
+
 class _Pull:
     """The pulls on one node."""
 
-    def __init__(self, name: str, actions: Actions, clock: Callable[[], float]) -> None:
-        self._name, self._actions, self._clock = name, actions, clock
+    def __init__(self, handle: Pullable, actions: Actions, clock: Callable[[], float], ball: bool) -> None:
+        self._handle, self._actions, self._clock = handle, actions, clock
+        self._ball = ball
+        self._ratio = 1.0
         self._last: Drag | None = None
 
     def callback(self) -> Callable[[Event], Coroutine[Any, Any, None]]:
@@ -79,8 +131,15 @@ class _Pull:
         grabbed, pointer = checked_point(event.start_position), checked_point(event.end_position)
         if grabbed is None or pointer is None:
             return None
+        camera = checked_point(event.client.camera.position) if self._ball else None
+        if camera is not None:
+            if event.phase == "start":
+                look_at = np.asarray(event.client.camera.look_at)
+                self._ratio = depth_ratio(camera, look_at, grabbed, self._handle.position)
+            grabbed = camera + self._ratio * (grabbed - camera)
+            pointer = camera + self._ratio * (pointer - camera)
         return Drag(
-            node=self._name,
+            node=self._handle.name,
             phase=event.phase,
             grabbed=grabbed,
             pointer=pointer,

@@ -7,13 +7,13 @@ ends, and what it was before is dashed grey.
 from collections.abc import Callable
 from typing import Final
 
-import numpy as np
 import viser
 
 from app.actions import Actions
 from app.document import FloatArray
 from app.model import Run
 from app.scene.geometry import arrowheads, dashes, pick_tube, segments
+from app.scene.grip import Grip
 from app.scene.nodes import Ball, Line, Mesh
 from app.scene.pulls import bind_pull
 from app.scene.style import (
@@ -22,10 +22,12 @@ from app.scene.style import (
     PICK_RADIUS,
     REFINED,
     REPRODUCTION,
+    START_GRIP,
     START_RADIUS,
     START_RADIUS_IN_TRY,
     THICK,
 )
+from app.scene.view import Eye
 from app.store import State
 
 DOT_RADIUS: Final = 0.009
@@ -45,7 +47,7 @@ class Reproductions:
             name = f"/reproductions/{len(self._paths)}"
             self._paths.append(_Path(self._api, name, self._actions, self._clock))
         for i, path in enumerate(self._paths):
-            path.draw(runs[i] if i < len(runs) else None)
+            path.draw(runs[i] if i < len(runs) else None, state.dragging is not None)
 
 
 class _Path:
@@ -60,33 +62,41 @@ class _Path:
         self._actions, self._clock = actions, clock
         self._bound = False
         self._run: Run | None = None
+        self._picked: Run | None = None
 
-    def draw(self, run: Run | None) -> None:
+    def draw(self, run: Run | None, dragging: bool) -> None:
+        if run is not None and run is not self._picked and not (dragging and self._bound):
+            self._draw_pick(run)
         if run is self._run:
             return
         self._run = run
         if run is None:
             self._pick.hide()
-            return
-        positions = run.reproduction.positions
-        handle = self._pick.show(*pick_tube(positions, PICK_RADIUS))
+            self._picked = None
+        elif run.reproduction is run.free:
+            self._draw_free(run.reproduction.positions)
+        else:
+            self._draw_refined(run.reproduction.positions, run.free.positions)
+
+    def _draw_pick(self, run: Run) -> None:
+        """Invisible: what is dragged already need not be hit, so it waits for the release."""
+        self._picked = run
+        handle = self._pick.show(*pick_tube(run.reproduction.positions, PICK_RADIUS))
         if not self._bound:
             bind_pull(handle, self._actions, self._clock)
             self._bound = True
-        if run.reproduction is run.free:
-            self._draw_free(positions)
-        else:
-            self._draw_refined(positions, run.free.positions)
 
     def _draw_free(self, positions: FloatArray) -> None:
-        self._line.show(segments(positions), color=REPRODUCTION, thickness=THICK)
+        self._line.look(REPRODUCTION, THICK)
+        self._line.show(segments(positions))
         self._arrows.show(*arrowheads(positions))
         self._free.hide()
         for end in self._ends:
             end.hide()
 
     def _draw_refined(self, positions: FloatArray, before: FloatArray) -> None:
-        self._line.show(segments(positions), color=REFINED, thickness=DOUBLE)
+        self._line.look(REFINED, DOUBLE)
+        self._line.show(segments(positions))
         self._arrows.hide()
         self._free.show(dashes(before))
         for end, place in zip(self._ends, (positions[0], positions[-1]), strict=True):
@@ -94,35 +104,44 @@ class _Path:
 
 
 class Starts:
-    """``/start/i``: pull one for another reproduction."""
+    """``/start/i``: pull one for another reproduction; larger in Try, where it also wins over the hand."""
 
-    def __init__(self, api: viser.SceneApi, actions: Actions, clock: Callable[[], float]) -> None:
-        self._api, self._actions, self._clock = api, actions, clock
-        self._balls: list[Ball] = []
-        self._drawn: list[tuple[FloatArray | None, float]] = []
+    def __init__(self, api: viser.SceneApi, actions: Actions, clock: Callable[[], float], eye: Eye) -> None:
+        self._api, self._actions, self._clock, self._eye = api, actions, clock, eye
+        self._starts: list[_Start] = []
 
     def draw(self, state: State) -> None:
-        """Put a ball where each run begins; a larger one in Try."""
+        """Put a ball where each run begins."""
         runs = state.model.runs if state.view.show_reproductions else ()
         scale = START_RADIUS_IN_TRY / START_RADIUS if state.view.tab == "Try" else 1.0
-        while len(self._balls) < len(runs):
-            self._add(runs[len(self._balls)].start)
-        for i, ball in enumerate(self._balls):
-            start = runs[i].start if i < len(runs) else None
-            if _is_drawn((start, scale), self._drawn[i]):
-                continue
-            self._drawn[i] = (start, scale)
-            if start is None:
-                ball.hide()
-            else:
-                ball.show(start, scale=scale)
-
-    def _add(self, start: FloatArray) -> None:
-        ball = Ball(self._api, f"/start/{len(self._balls)}", radius=START_RADIUS, color=REPRODUCTION)
-        bind_pull(ball.show(start), self._actions, self._clock)
-        self._balls.append(ball)
-        self._drawn.append((None, np.nan))
+        while len(self._starts) < len(runs):
+            name = f"/start/{len(self._starts)}"
+            self._starts.append(_Start(self._api, name, self._actions, self._clock))
+        for i, ball in enumerate(self._starts):
+            ball.draw(runs[i].start if i < len(runs) else None, scale, self._eye.position)
 
 
-def _is_drawn(wanted: tuple[FloatArray | None, float], drawn: tuple[FloatArray | None, float]) -> bool:
-    return wanted[0] is drawn[0] and (wanted[1] == drawn[1] or wanted[0] is None)
+class _Start:
+    def __init__(self, api: viser.SceneApi, name: str, actions: Actions, clock: Callable[[], float]) -> None:
+        self._ball = Ball(api, name, radius=START_RADIUS, color=REPRODUCTION)
+        self._grip = Grip(api, name, START_RADIUS, START_GRIP)
+        self._actions, self._clock = actions, clock
+        self._bound = False
+        self._start: FloatArray | None = None
+        self._scale = 0.0
+
+    def draw(self, start: FloatArray | None, scale: float, camera: FloatArray) -> None:
+        if start is not None:
+            self._show(start, scale)
+            self._grip.aim(start, camera, scale=scale)
+        elif self._start is not None:
+            self._ball.hide()
+        self._start, self._scale = start, scale
+
+    def _show(self, start: FloatArray, scale: float) -> None:
+        if start is self._start and scale == self._scale:
+            return
+        handle = self._ball.show(start, scale=scale)
+        if not self._bound:
+            bind_pull(handle, self._actions, self._clock, ball=True)
+            self._bound = True

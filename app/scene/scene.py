@@ -3,10 +3,12 @@
 from collections.abc import Callable
 from typing import Protocol
 
+import numpy as np
 import viser
 
 from app.actions import Actions
 from app.arm.protocol import Arm
+from app.document import FloatArray
 from app.scene.arm import ArmFrames
 from app.scene.cylinder import Directrix, Section, Tube
 from app.scene.demonstrations import Demonstrations
@@ -14,6 +16,7 @@ from app.scene.drop import DropLine
 from app.scene.hand import HandBall, Recording, Shortage
 from app.scene.landmarks import Landmarks
 from app.scene.reproductions import Reproductions, Starts
+from app.scene.view import Eye
 from app.store import State
 
 
@@ -42,6 +45,7 @@ class Scene:
         clock : callable
             Session time now [s]; stamps the pulls.
         """
+        self._eye = Eye()
         self._parts: tuple[Part, ...] = (
             Tube(api),  # first, see there
             ArmFrames(api, arm),
@@ -49,10 +53,10 @@ class Scene:
             Section(api),
             Demonstrations(api, actions, clock),
             Reproductions(api, actions, clock),
-            Starts(api, actions, clock),
-            Landmarks(api, actions, clock),
+            Starts(api, actions, clock, self._eye),
+            Landmarks(api, actions, clock, self._eye),
             Recording(api),
-            HandBall(api, actions, clock),
+            HandBall(api, actions, clock, self._eye),
             Shortage(api),
             DropLine(api),
         )
@@ -61,3 +65,8 @@ class Scene:
         """Draw a state; what is unchanged since the last one costs nothing."""
         for part in self._parts:
             part.draw(state)
+
+    def look_from(self, position: FloatArray) -> None:
+        """Say where this person's camera is (3,) [m]; the next `draw` turns the grips of the balls to it."""
+        if np.all(np.isfinite(position)):
+            self._eye.position = np.array(position, dtype=np.float64)

@@ -13,22 +13,23 @@ Color: TypeAlias = tuple[int, int, int]
 DEMONSTRATION: Final[Color] = (196, 22, 28)
 MUTED: Final[Color] = (224, 150, 152)
 DIRECTRIX: Final[Color] = (31, 63, 168)
-TUBE: Final[Color] = (196, 202, 212)
+TUBE: Final[Color] = (142, 150, 166)
 REPRODUCTION: Final[Color] = (224, 75, 220)
 REFINED: Final[Color] = (26, 158, 115)
 FREE: Final[Color] = (120, 126, 136)
 LANDMARK: Final[Color] = (242, 186, 26)
+LANDMARK_GHOST: Final[Color] = (247, 222, 158)
 HAND: Final[Color] = (92, 104, 122)
 WARNING: Final[Color] = (240, 140, 0)
+WARNING_GHOST: Final[Color] = (250, 205, 140)
 SECTION: Final[Color] = (20, 38, 108)
 GUIDE: Final[Color] = (104, 112, 124)
-SHADOW: Final[Color] = (150, 156, 166)
+SHADOW: Final[Color] = (112, 119, 132)
 TABLE: Final[Color] = (232, 235, 239)
 CELL: Final[Color] = (214, 219, 226)
 SECTION_OF_TABLE: Final[Color] = (192, 199, 208)
 
-TUBE_OPACITY: Final = 0.30
-GHOST_OPACITY: Final = 0.35
+TUBE_OPACITY: Final = 0.32
 
 THIN: Final = 2.0
 THICK: Final = 4.0
@@ -42,3 +43,8 @@ LANDMARK_RADIUS: Final = 0.030
 GHOST_RADIUS: Final = 0.014
 PICK_RADIUS: Final = 0.010
 """How near to a line the pointer has to be [m]."""
+
+HAND_GRIP: Final = 0.30
+"""Length of the invisible rods that let a ball win over lines in front of it [m]; see `app.scene.grip`."""
+START_GRIP: Final = 0.25
+LANDMARK_GRIP: Final = 0.20

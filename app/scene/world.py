@@ -1,10 +1,9 @@
-"""What all sessions share: table, light, the meshes of the arm, and where one looks from.
+"""What all sessions share: table, light and the meshes of the arm.
 
 It is drawn once, on the server's scene. The link meshes have no frames there: each
 session puts its own under them, see `app.scene.arm`.
 """
 
-from dataclasses import dataclass
 from typing import Final
 
 import viser
@@ -15,27 +14,6 @@ from app.scene.style import CELL, SECTION_OF_TABLE, TABLE, Color
 TABLE_SIZE: Final = 2.2
 """Side of the table [m]: the arm reaches about 1 m to every side."""
 TABLE_THICKNESS: Final = 0.025
-
-
-@dataclass(frozen=True)
-class Viewpoint:
-    """A place to look from."""
-
-    position: tuple[float, float, float]
-    """Of the camera [m]."""
-    look_at: tuple[float, float, float]
-    """[m]."""
-
-
-VIEWS: Final[dict[str, Viewpoint]] = {
-    "3D": Viewpoint((0.85, -1.45, 0.80), (0.0, -0.36, 0.25)),
-    "Front": Viewpoint((0.0, -2.1, 0.30), (0.0, -0.36, 0.30)),
-    "Side": Viewpoint((1.8, -0.36, 0.30), (0.0, -0.36, 0.30)),
-    "Top": Viewpoint((0.0, -0.37, 1.9), (0.0, -0.36, 0.0)),
-}
-"""What the view buttons show."""
-FIELD_OF_VIEW: Final = 0.80
-"""Vertical [rad]; narrow, so that distances are not exaggerated."""
 
 
 def draw_world(api: viser.SceneApi, arm: Arm) -> None:
@@ -61,13 +39,6 @@ def draw_world(api: viser.SceneApi, arm: Arm) -> None:
             cast_shadow=False,
             receive_shadow=False,
         )
-
-
-def look_from_here(camera: viser.InitialCameraConfig) -> None:
-    """Let every new page begin with the 3-D view; set on ``server.initial_camera``."""
-    camera.position = VIEWS["3D"].position
-    camera.look_at = VIEWS["3D"].look_at
-    camera.fov = FIELD_OF_VIEW
 
 
 def readable(color: Color) -> Color:
