@@ -40,6 +40,7 @@ carry_over_network() {
     cp -L /etc/resolv.conf /etc/hosts "$root/etc/"
     # Another distribution's sources would make another distribution of it.
     if grep -q '^VERSION_CODENAME=bookworm' /etc/os-release && grep -q '^ID=debian' /etc/os-release; then
+        rm -f "$root/etc/apt/sources.list"
         apt=(/etc/apt/sources.list /etc/apt/sources.list.d /usr/share/keyrings /etc/apt/keyrings)
     fi
     for file in "${apt[@]}" /etc/apt/apt.conf.d /etc/apt/auth.conf.d /etc/pip.conf /etc/xdg/pip \
@@ -49,27 +50,20 @@ carry_over_network() {
             cp -aL "$file" "$root$(dirname "$file")/" 2>/dev/null || true
         fi
     done
-    bind_local_packages
+    forget_local_packages
 }
 
-# pip may be told of folders with packages; they are shown at the same place, to read only.
-bind_local_packages() {
-    local folder
-    for folder in $({ cat /etc/pip.conf /etc/xdg/pip/pip.conf /root/.config/pip/pip.conf /root/.pip/pip.conf \
-        2>/dev/null || true; env | grep '^PIP_' || true; } | sed 's/[ =]/\n/g' \
-        | sed -n -e 's|^file://\(/.*\)|\1|p' -e 's|^\(/.*\)|\1|p' | sort -u); do
-        if [ -d "$folder" ] && [ ! -e "$root$folder" ]; then
-            mkdir -p "$root$folder"
-            mount --bind "$folder" "$root$folder"
-            mount -o remount,ro,bind "$root$folder"
-        fi
-    done
+# A bare Debian has no folders with packages beside the registries; pip is not told of this machine's.
+forget_local_packages() {
+    find "$root/etc/pip.conf" "$root/etc/xdg/pip" "$root/root/.config/pip" "$root/root/.pip" -name '*.conf' \
+        -exec sed -i -e 's|file:[^[:space:]]*||g' -e 's|^\(find-links[[:space:]]*=\).*|\1|' {} + 2>/dev/null || true
 }
 
 # Only what tells programs how to reach the network; nothing else of this machine's environment.
 inside() {
     local keep
-    keep=$(env | grep -iE '^((https?|ftp|all|no)_proxy|pip_[a-z_]+|ssl_cert_[a-z]+|[a-z_]*ca_bundle)=' || true)
+    keep=$(env | grep -iE '^((https?|ftp|all|no)_proxy|pip_[a-z_]+|ssl_cert_[a-z]+|[a-z_]*ca_bundle)=' \
+        | grep -viE '^pip_find_links=|=file:' || true)
     mapfile -t keep <<<"$keep"
     [ -n "${keep[0]}" ] || keep=()
     exec chroot "$root" /usr/bin/env -i HOME=/root LANG=C.UTF-8 \
