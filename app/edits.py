@@ -56,11 +56,14 @@ def point(values: Sequence[float] | FloatArray) -> FloatArray:
     EditError
         If it is not three finite numbers within ``LARGEST_COORDINATE``.
     """
-    p = np.array(values, dtype=np.float64)
+    try:
+        p = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):  # words, or lists within the list
+        p = np.empty(0)
     if p.shape != (3,) or not np.all(np.abs(p) <= LARGEST_COORDINATE):
         raise EditError(
             f"A position needs three numbers between -{LARGEST_COORDINATE:g} and "
-            f"{LARGEST_COORDINATE:g} m, got {np.array2string(p, precision=3)}."
+            f"{LARGEST_COORDINATE:g} m, got {str(values)[:80]}."
         )
     p.setflags(write=False)
     return p
