@@ -96,7 +96,8 @@ class Driver:
         if index >= len(motion.times):
             self.hand, self._way = self._at(motion.joints[-1], self.hand.gripper), None
             return False
-        self.hand = self._at(motion.joints[index], self.hand.gripper)
+        on_its_way = self._at(motion.joints[index], self.hand.gripper)
+        self.hand = replace(on_its_way, returns_to=motion.positions[-1])
         return True
 
     def _catch_up(self, joints: FloatArray, lead: Lead, dt: float) -> FloatArray:
