@@ -1,0 +1,213 @@
+"""The laws of the edits: a new object, the same one when nothing changes, a sentence on nonsense."""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app import edits
+from app.document import Document, Place
+from app.edits import EditError
+from gc_core import GcError, same_content
+from tests.app.makers import demonstration, furnished, rule, taught
+
+Edit = Callable[[Document], Document]
+ELSEWHERE = np.array([0.4, -0.2, 0.3])
+
+CHANGES: dict[str, Edit] = {
+    "rename_skill": lambda d: edits.rename_skill(d, "Pouring"),
+    "set_section": lambda d: edits.set_section(d, "circle"),
+    "set_align_by": lambda d: edits.set_align_by(d, "time"),
+    "set_stations": lambda d: edits.set_stations(d, 100),
+    "add_demonstrations": lambda d: edits.add_demonstrations(d, [demonstration(7)]),
+    "replace_demonstration": lambda d: edits.replace_demonstration(d, 1, demonstration(7)),
+    "rename_demonstration": lambda d: edits.rename_demonstration(d, 1, "slow one"),
+    "mute_demonstration": lambda d: edits.mute_demonstration(d, 1, True),
+    "duplicate_demonstration": lambda d: edits.duplicate_demonstration(d, 1),
+    "delete_demonstration": lambda d: edits.delete_demonstration(d, 1),
+    "trim_demonstration": lambda d: edits.trim_demonstration(d, 1, 0.5, 2.0),
+    "add_start": lambda d: edits.add_start(d, ELSEWHERE),
+    "move_start": lambda d: edits.move_start(d, 0, ELSEWHERE),
+    "remove_start": lambda d: edits.remove_start(d, 0),
+    "move_landmark": lambda d: edits.move_landmark(d, "start", ELSEWHERE),
+    "put_landmark_back": lambda d: edits.put_landmark_back(d, "goal"),
+    "add_rule": lambda d: edits.add_rule(d, rule().constraint),
+    "enable_rule": lambda d: edits.enable_rule(d, 0, False),
+    "delete_rule": lambda d: edits.delete_rule(d, 0),
+}
+"""One real change by every public edit."""
+
+MAKERS = {"edit", "point", "skill_of"}
+"""Public functions that are no edits."""
+
+SAME: dict[str, Edit] = {
+    "rename_skill": lambda d: edits.rename_skill(d, f" {d.title} "),
+    "set_section": lambda d: edits.set_section(d, d.settings.section),
+    "set_align_by": lambda d: edits.set_align_by(d, d.settings.align_by),
+    "set_stations": lambda d: edits.set_stations(d, d.settings.stations),
+    "add_demonstrations": lambda d: edits.add_demonstrations(d, []),
+    "replace_demonstration": lambda d: edits.replace_demonstration(d, 1, d.demonstrations[1].demonstration),
+    "rename_demonstration": lambda d: edits.rename_demonstration(
+        d, 1, d.demonstrations[1].demonstration.name
+    ),
+    "mute_demonstration": lambda d: edits.mute_demonstration(d, 1, False),
+    "trim_demonstration": lambda d: edits.trim_demonstration(d, 1, 0.0, 99.0),
+    "move_start": lambda d: edits.move_start(d, 0, d.starts[0].copy()),
+    "move_landmark": lambda d: edits.move_landmark(d, "goal", d.landmarks[1].now),  # type: ignore[arg-type]
+    "put_landmark_back": lambda d: edits.put_landmark_back(d, "start"),
+    "enable_rule": lambda d: edits.enable_rule(d, 0, True),
+}
+"""Edits that ask for what is already so."""
+
+NONSENSE: dict[str, Edit] = {
+    "an empty name": lambda d: edits.rename_skill(d, "   "),
+    "an unknown section": lambda d: edits.set_section(d, "star"),  # type: ignore[arg-type]
+    "an unknown alignment": lambda d: edits.set_align_by(d, "magic"),  # type: ignore[arg-type]
+    "too few stations": lambda d: edits.set_stations(d, 3),
+    "stations that are no number": lambda d: edits.set_stations(d, float("nan")),  # type: ignore[arg-type]
+    "a demonstration that is not there": lambda d: edits.mute_demonstration(d, 9, True),
+    "a negative index": lambda d: edits.delete_demonstration(d, -1),
+    "a trim that leaves nothing": lambda d: edits.trim_demonstration(d, 0, 2.0, 1.0),
+    "a start that is not a number": lambda d: edits.move_start(d, 0, np.full(3, np.nan)),
+    "a start beyond all reach": lambda d: edits.add_start(d, np.array([1e9, 0.0, 0.0])),
+    "a start of two numbers": lambda d: edits.add_start(d, np.zeros(2)),
+    "a start of words": lambda d: edits.add_start(d, ["a", "b", "c"]),  # type: ignore[arg-type]
+    "a ragged start": lambda d: edits.add_start(d, [0.0, [1.0, 2.0], 3.0]),  # type: ignore[arg-type, list-item]
+    "a start that is not there": lambda d: edits.remove_start(d, 4),
+    "an unknown landmark": lambda d: edits.move_landmark(d, "moon", ELSEWHERE),
+    "a rule that is not there": lambda d: edits.enable_rule(d, 3, False),
+}
+
+
+def public_edits() -> set[str]:
+    return {
+        name
+        for name, value in vars(edits).items()
+        if callable(value)
+        and getattr(value, "__module__", "") == edits.__name__
+        and not name.startswith("_")
+        and not isinstance(value, type)
+    } - MAKERS
+
+
+def test_every_public_edit_is_tested_here() -> None:
+    assert public_edits() == set(CHANGES)
+
+
+@pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
+def test_an_edit_makes_another_document_and_leaves_its_own_untouched(change: Edit) -> None:
+    document = furnished()
+    before = pickle.dumps(document)
+
+    changed = change(document)
+
+    assert not same_content(changed, document)
+    assert pickle.dumps(document) == before
+
+
+@pytest.mark.parametrize("change", SAME.values(), ids=SAME)
+def test_an_edit_that_changes_nothing_returns_the_same_document(change: Edit) -> None:
+    document = furnished()
+
+    assert change(document) is document
+
+
+@pytest.mark.parametrize("change", NONSENSE.values(), ids=NONSENSE)
+def test_nonsense_is_answered_with_a_sentence(change: Edit) -> None:
+    with pytest.raises(EditError, match=r"\w+ \w+.*\.$"):
+        change(furnished())
+
+
+def test_a_trim_keeps_the_samples_between_two_times_and_starts_the_clock_again() -> None:
+    document = edits.trim_demonstration(taught(), 0, 0.5, 2.0)
+
+    original, part = taught().demonstrations[0].demonstration, document.demonstrations[0].demonstration
+    kept = (original.times >= 0.5) & (original.times <= 2.0)
+    np.testing.assert_array_equal(part.positions, original.positions[kept])
+    np.testing.assert_array_equal(part.gripper, original.gripper[kept])  # type: ignore[index]
+    np.testing.assert_allclose(part.times, original.times[kept] - original.times[kept][0])
+
+
+def test_demonstrations_without_a_name_are_numbered_on() -> None:
+    nameless = [replace(demonstration(i), name="") for i in (4, 5)]
+
+    document = edits.add_demonstrations(taught(3), nameless)
+
+    names = [shown.demonstration.name for shown in document.demonstrations[3:]]
+    assert names == ["Demonstration 4", "Demonstration 5"]
+
+
+def test_moving_the_start_that_every_skill_has_makes_it_ones_own() -> None:
+    document = replace(taught(), starts=())
+
+    moved = edits.move_start(document, 0, ELSEWHERE)
+
+    np.testing.assert_array_equal(moved.starts, [ELSEWHERE])
+
+
+def test_there_can_be_twelve_starts_and_no_more() -> None:
+    document = taught()
+    for _ in range(11):
+        document = edits.add_start(document, ELSEWHERE)
+
+    with pytest.raises(EditError, match="twelve"):
+        edits.add_start(document, ELSEWHERE)
+
+
+def test_a_landmark_that_moves_before_anything_is_taught_is_placed_there() -> None:
+    empty = Document("My skill", landmarks=(Place("start"), Place("goal", taught=np.zeros(3))))
+
+    goal = edits.move_landmark(empty, "goal", ELSEWHERE).landmarks[1]
+
+    np.testing.assert_array_equal(goal.taught, ELSEWHERE)
+    assert goal.now is None
+
+
+def test_a_moved_landmark_goes_back_to_where_it_was_taught() -> None:
+    document = taught()
+
+    back = edits.put_landmark_back(edits.move_landmark(document, "goal", ELSEWHERE), "goal")
+
+    assert same_content(back, document)
+
+
+def test_a_checked_point_is_a_copy_that_nobody_can_write_to() -> None:
+    mine = np.zeros(3)
+
+    checked = edits.point(mine)
+    mine[0] = 1.0
+
+    np.testing.assert_array_equal(checked, 0.0)
+    assert not checked.flags.writeable
+
+
+@pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
+def test_the_first_edit_of_a_built_in_skill_makes_a_copy_of_ones_own(change: Edit) -> None:
+    built_in = replace(furnished(), built_in=True)
+
+    copy = edits.edit(built_in, change)
+
+    assert not copy.built_in
+    assert built_in.built_in
+    assert copy.title == ("Pouring" if change is CHANGES["rename_skill"] else "My reaching")
+
+
+@pytest.mark.parametrize("change", SAME.values(), ids=SAME)
+def test_an_edit_that_changes_nothing_leaves_a_built_in_skill_built_in(change: Edit) -> None:
+    built_in = replace(furnished(), built_in=True)
+
+    assert edits.edit(built_in, change) is built_in
+
+
+def test_a_skill_of_recordings_holds_them_all_under_its_title() -> None:
+    document = edits.skill_of("  alpha  ", [demonstration(0), demonstration(1)])
+
+    assert (document.title, len(document.demonstrations), document.built_in) == ("alpha", 2, False)
+
+
+def test_an_edit_error_is_an_error_of_the_input() -> None:
+    assert issubclass(EditError, GcError)

@@ -1,0 +1,187 @@
+"""Learning is a pure function of the document, and does no stage twice."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+
+from app import edits
+from app.document import Document, Place, Settings, Shown
+from app.model import learn
+from gc_core import Demonstration, same_content
+from tests.app.makers import demonstration, furnished, rule, taught
+from tests.app.test_edits import CHANGES
+
+ELSEWHERE = np.array([0.42, 0.25, 0.50])
+
+
+@pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
+def test_what_is_reused_has_the_content_of_what_is_learned_afresh(change) -> None:
+    former = learn(furnished())
+    document = change(former.source)
+
+    assert same_content(learn(document, former), learn(document))
+
+
+@pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
+def test_the_way_back_has_the_content_of_what_is_learned_afresh(change) -> None:
+    document = furnished()
+    former = learn(change(document))
+
+    assert same_content(learn(document, former), learn(document))
+
+
+def test_learning_a_document_again_is_the_same_model() -> None:
+    model = learn(taught())
+
+    assert learn(model.source, model) is model
+
+
+def test_moving_a_start_reuses_the_cylinder() -> None:
+    former = learn(taught())
+
+    model = learn(edits.move_start(former.source, 0, ELSEWHERE), former)
+
+    assert model.cylinder is former.cylinder
+    assert model.runs[0] is not former.runs[0]
+
+
+def test_moving_one_start_reuses_the_runs_of_the_others() -> None:
+    former = learn(edits.add_start(taught(), ELSEWHERE))
+
+    model = learn(edits.move_start(former.source, 1, ELSEWHERE + 0.02), former)
+
+    assert model.runs[0] is former.runs[0]
+
+
+def test_moving_a_landmark_reuses_what_was_taught() -> None:
+    former = learn(taught())
+
+    model = learn(edits.move_landmark(former.source, "goal", np.array([0.6, -0.2, 0.3])), former)
+
+    assert model.taught is former.taught
+    assert model.cylinder is not former.cylinder
+
+
+def test_switching_a_rule_reuses_the_free_run() -> None:
+    former = learn(furnished())
+
+    model = learn(edits.enable_rule(former.source, 0, False), former)
+
+    assert model.cylinder is former.cylinder
+    assert model.runs[0].free is former.runs[0].free
+
+
+@pytest.mark.parametrize("change", ["rename_skill", "add_rule", "add_start"])
+def test_what_the_cylinder_does_not_depend_on_does_not_make_another(change: str) -> None:
+    former = learn(furnished())
+
+    assert learn(CHANGES[change](former.source), former).cylinder is former.cylinder
+
+
+def test_a_muted_demonstration_is_not_learned_from() -> None:
+    odd = replace(demonstration(9), positions=demonstration(9).positions + 0.2)
+    document = edits.add_demonstrations(taught(), [odd])
+
+    muted = learn(edits.mute_demonstration(document, 3, True))
+
+    assert same_content(muted.cylinder, learn(taught()).cylinder)
+
+
+def test_nothing_taught_is_nothing_learned_and_no_problem() -> None:
+    model = learn(Document("empty"))
+
+    assert (model.cylinder, model.runs, model.anchors, model.problem) == (None, (), (), None)
+
+
+def test_a_placed_landmark_stands_there_before_anything_is_taught() -> None:
+    model = learn(Document("empty", landmarks=(Place("start"), Place("goal", taught=ELSEWHERE))))
+
+    assert [anchor.name for anchor in model.anchors] == ["goal"]
+
+
+def test_one_demonstration_has_a_tube_and_a_run() -> None:
+    model = learn(taught(1))
+
+    assert model.cylinder is not None
+    assert len(model.runs) == 1
+
+
+def test_landmarks_stand_at_the_ends_of_the_directrix_where_nothing_else_is_said() -> None:
+    model = learn(taught())
+
+    assert model.taught is not None
+    np.testing.assert_array_equal(model.anchors[0].now, model.taught.directrix[0])
+    np.testing.assert_array_equal(model.anchors[1].now, model.taught.directrix[-1])
+
+
+def test_landmarks_that_stand_where_they_were_taught_bend_nothing() -> None:
+    model = learn(taught())
+
+    assert model.cylinder is model.taught
+    assert model.registration is None
+
+
+def test_the_cylinder_ends_where_the_goal_was_moved() -> None:
+    goal = np.array([0.6, -0.2, 0.3])
+
+    model = learn(edits.move_landmark(taught(), "goal", goal))
+
+    assert model.cylinder is not None
+    np.testing.assert_allclose(model.cylinder.directrix[-1], goal, atol=1e-6)
+
+
+def test_every_start_has_its_run_and_each_begins_there() -> None:
+    document = edits.add_start(taught(), ELSEWHERE)
+
+    runs = learn(document).runs
+
+    np.testing.assert_allclose([run.reproduction.positions[0] for run in runs], document.starts)
+
+
+def test_a_skill_without_starts_of_its_own_still_has_a_run() -> None:
+    model = learn(replace(taught(), starts=()))
+
+    assert len(model.runs) == 1
+    assert model.runs[0].reproduction.start_inside
+
+
+def test_demonstrations_that_cancel_each_other_out_are_explained_and_can_be_repaired() -> None:
+    there = np.linspace((0.4, -0.2, 0.3), (0.4, 0.2, 0.3), 50)
+    paths = (Demonstration(np.linspace(0.0, 2.0, 50), path) for path in (there, there[::-1]))
+    document = Document("Odd", demonstrations=tuple(map(Shown, paths)), settings=Settings(stations=60))
+
+    model = learn(document)
+    repaired = learn(edits.delete_demonstration(document, 1), model)
+
+    assert model.problem is not None
+    assert (model.cylinder, model.runs) == (None, ())
+    assert (repaired.problem, repaired.cylinder is None) == (None, False)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        partial(edits.set_section, section="circle"),
+        partial(edits.set_align_by, align_by="time"),
+        partial(edits.set_stations, stations=80),
+    ],
+)
+def test_a_setting_encodes_again(change) -> None:
+    former = learn(taught())
+
+    assert learn(change(former.source), former).taught is not former.taught
+
+
+def test_a_rule_holds_only_where_a_run_would_pass_it() -> None:
+    far = rule()
+    document = edits.add_rule(edits.move_start(taught(), 0, ELSEWHERE), far.constraint)
+
+    run = learn(document).runs[0]
+
+    touched = np.any(run.reproduction.positions != run.free.positions, axis=1)
+    assert np.any(touched)
+    assert not np.all(touched)
