@@ -20,7 +20,7 @@ clean_up() {
     [ -z "${server:-}" ] || kill "$server" 2>/dev/null || true
     for left in $(mounted); do umount -l "$left" || true; done
     # Never remove a tree into which something of this machine is still mounted.
-    if [ -z "${KEEP:-}" ] && [ -z "$(mounted)" ]; then rm -rf --one-file-system "$work"; else say "left in $work"; fi
+    if [ -n "${KEEP:-}" ] || [ -n "$(mounted)" ] || ! rm -rf --one-file-system "$work"; then say "left in $work"; fi
 }
 trap clean_up EXIT
 
@@ -104,7 +104,11 @@ stop_server() {
             kill -TERM "$pid" 2>/dev/null || true
         fi
     done
-    wait "$server" || true
+    for _ in $(seq 30); do
+        kill -0 "$server" 2>/dev/null || break
+        sleep 1
+    done
+    kill -0 "$server" 2>/dev/null && fail "it did not stop within 30 s of SIGTERM."
     server=
     ! page "http://127.0.0.1:$port/healthz" 2>/dev/null || fail "it still serves after SIGTERM."
 }
