@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gc_core.arrays import FloatArray
+from gc_core.arrays import FloatArray, interpolated
 from gc_core.demonstration import Demonstration, Trimmed, sign_continuous
 from gc_core.errors import OpposedDemonstrationsError, UnknownOptionError
 from gc_core.frames import arc_length, smooth
@@ -107,7 +107,7 @@ def mean_orientations(
     for demonstration, part, moment in zip(demonstrations, trimmed, moments, strict=True):
         if demonstration.orientations is None:
             return None
-        sample = np.interp(moment, part.times, part.kept)
+        sample = interpolated(moment, part.times, part.kept)
         values = _sampled_rows(demonstration.orientations, sample)
         sampled.append(values / np.linalg.norm(values, axis=1, keepdims=True))
     stacked = np.array(sampled)
@@ -131,7 +131,7 @@ def majority_gripper(
         if demonstration.gripper is None:
             return None
         channels.append(
-            demonstration.gripper[np.rint(np.interp(moment, part.times, part.kept)).astype(np.intp)]
+            demonstration.gripper[np.rint(interpolated(moment, part.times, part.kept)).astype(np.intp)]
         )
     values = np.array(channels)
     low, high = float(values.min()), float(values.max())
@@ -149,12 +149,12 @@ def _clock(demonstration: Trimmed, align_by: str, grid: FloatArray) -> FloatArra
     # A sensor's noise must not count as path while the hand pauses.
     gone = arc_length(smooth(demonstration.positions, len(demonstration.positions) // 200))
     gone = gone + 1e-9 * gone[-1] * np.linspace(0.0, 1.0, len(gone))
-    return np.interp(grid * gone[-1], gone, demonstration.times)
+    return interpolated(grid * gone[-1], gone, demonstration.times)
 
 
 def _at(demonstration: Trimmed, moments: FloatArray) -> FloatArray:
     """Places (K, 3) on the demonstration's polyline at given moments (K,)."""
-    sample = np.interp(moments, demonstration.times, np.arange(len(demonstration.times), dtype=np.float64))
+    sample = interpolated(moments, demonstration.times, np.arange(len(demonstration.times), dtype=np.float64))
     return _sampled_rows(demonstration.positions, sample)
 
 
@@ -175,7 +175,7 @@ def _even_parameter(mean: FloatArray, grid: FloatArray, stations: int, longest: 
     if gone[-1] <= 1e-3 * longest:
         raise OpposedDemonstrationsError(float(gone[-1]))
     gone = gone + 1e-6 * gone[-1] * grid
-    return np.interp(np.linspace(0.0, gone[-1], stations), gone, grid)
+    return interpolated(np.linspace(0.0, float(gone[-1]), stations), gone, grid)
 
 
 def _time_law(moments: FloatArray) -> FloatArray:

@@ -61,6 +61,18 @@ def finite(values: ArrayLike, what: str, shape: tuple[int | None, ...]) -> Float
     return array
 
 
+def interpolated(at: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
+    """Interpolate the polyline y(x) (T,) at places (K,), its end values beyond its ends."""
+    return np.asarray(np.interp(at, x, y), dtype=np.float64)
+
+
+def read_only_fields(value: object) -> None:
+    """Replace every array of a frozen dataclass by a copy that cannot be written to."""
+    for name, content in tuple(vars(value).items()):
+        if isinstance(content, np.ndarray):
+            object.__setattr__(value, name, read_only(cast("NDArray[Any]", content)))
+
+
 def same_content(a: object, b: object) -> bool:
     """Compare two values of this package by what they hold.
 

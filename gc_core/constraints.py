@@ -73,7 +73,11 @@ class Constraint:
         after = finite(_path(corrected), "corrected", (None, 3))
         if len(before) != len(after):
             raise ShapeError("corrected", f"({len(before)}, 3), as the original,", after.shape)
-        stations = original.stations if isinstance(original, Reproduction) else np.arange(float(len(before)))
+        stations = (
+            original.stations
+            if isinstance(original, Reproduction)
+            else np.arange(len(before), dtype=np.float64)
+        )
         moved = after - before
         lengths = np.linalg.norm(moved, axis=1)
         active = (lengths >= LEAST_CORRECTION)[:, None]

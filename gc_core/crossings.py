@@ -74,7 +74,7 @@ def _cut(
     order = np.lexsort((away, station))
     taken, first = np.unique(station[order], return_index=True)
     best = knot[order[first]]
-    points = _ends(path, aligned, wanted, gone[-1], normals, offsets)
+    points = _ends(path, aligned, normals, offsets, part=wanted / gone[-1])
     points[taken] = _refined(path, knots[best], knots[best + 1], normals[taken], offsets[taken])
     missed = np.ones(len(normals), dtype=bool)
     missed[taken] = False
@@ -97,15 +97,13 @@ def _refined(
 
 
 def _ends(
-    path: FloatArray,
-    aligned: FloatArray,
-    wanted: FloatArray,
-    total: float,
-    normals: FloatArray,
-    offsets: FloatArray,
+    path: FloatArray, aligned: FloatArray, normals: FloatArray, offsets: FloatArray, *, part: FloatArray
 ) -> FloatArray:
-    """Places (N, 3) to use where a plane is missed: the end that it lies beyond, else the aligned place."""
+    """Places (N, 3) to use where a plane is missed: the end that it lies beyond, else the aligned place.
+
+    `part` (N,) says how far along the demonstration the aligned places are, from 0 to 1.
+    """
     ahead = np.einsum("ij,ij->i", aligned, normals) > offsets
-    starts_late = (ahead & (wanted <= SEARCH * total))[:, None]
-    ends_early = (~ahead & (total - wanted <= SEARCH * total))[:, None]
+    starts_late = (ahead & (part <= SEARCH))[:, None]
+    ends_early = (~ahead & (part >= 1.0 - SEARCH))[:, None]
     return np.where(starts_late, path[0], np.where(ends_early, path[-1], aligned))

@@ -6,12 +6,12 @@ they are interpolated at equal angle.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from gc_core.arrays import BoolArray, FloatArray, IntArray, finite, read_only
+from gc_core.arrays import BoolArray, FloatArray, IntArray, finite, read_only, read_only_fields
 from gc_core.diagnostics import Diagnostics
 from gc_core.frames import arc_length
 from gc_core.radius import radius_at
@@ -65,10 +65,7 @@ class GeneralizedCylinder:
     """What was trimmed, missed, widened, folded, and which stations cross a neighbour."""
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if isinstance(value, np.ndarray):
-                object.__setattr__(self, field.name, read_only(value))
+        read_only_fields(self)
 
     @cached_property
     def arc_length(self) -> FloatArray:

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
-import numpy as np
-
-from gc_core.arrays import BoolArray, FloatArray, IntArray, read_only
+from gc_core.arrays import BoolArray, FloatArray, IntArray, read_only_fields
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,10 +37,7 @@ class Diagnostics:
     """(N,) where the map that bent the tube turns space inside out."""
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if isinstance(value, np.ndarray):
-                object.__setattr__(self, field.name, read_only(value))
+        read_only_fields(self)
 
     def sentences(self) -> tuple[str, ...]:
         """Say what a person should know.
@@ -60,7 +55,8 @@ class Diagnostics:
         if self.assumed_width:
             said.append(
                 "One demonstration shows no width, so the tube is "
-                f"{self.minimum_half_width * 200.0:.3g} cm wide everywhere. Show the motion again to tell where it may vary."
+                f"{self.minimum_half_width * 200.0:.3g} cm wide everywhere. "
+                "Show the motion again to tell where it may vary."
             )
         for count, words in (
             (self.missed.any(axis=1).sum(), "slices are not reached by every demonstration"),

@@ -134,7 +134,7 @@ def _any_perpendicular(directions: FloatArray) -> tuple[FloatArray, FloatArray]:
     axis[np.arange(len(directions)), np.argmin(np.abs(directions), axis=1)] = 1.0
     n = axis - _dot(axis, directions)[:, None] * directions
     n = n / np.sqrt(_dot(n, n))[:, None]
-    return n, np.cross(directions, n)
+    return n, np.asarray(np.cross(directions, n), dtype=np.float64)
 
 
 def _double_reflection(curve: FloatArray, normals: FloatArray, vectors: FloatArray) -> FloatArray:

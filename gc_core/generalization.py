@@ -93,29 +93,32 @@ def _cut_again(lines: FloatArray, directrix: FloatArray, frames: FloatArray) -> 
     normals = frames[:, :, 0]
     flat = lines.reshape(-1, 3)
     place = flat.copy()
-    station = np.repeat(np.arange(count), width)
     offsets = np.einsum("ij,ij->i", directrix, normals)
-    height = (lines @ normals[:, :, None])[..., 0].ravel() - offsets[station]
+    height = ((lines @ normals[:, :, None])[..., 0] - offsets[:, None]).ravel()
     exact = 1e-9 * float(arc_length(directrix)[-1])
-    index = np.minimum(station, count - 2)
-    index = np.where((height > 0.0) & (index > 0), index - 1, index)
     off = np.flatnonzero(np.abs(height) > exact)
+    plane = off // width
+    normal, offset = np.take(normals, plane, axis=0), offsets[plane]
+    # Sample of the line that begins the piece to try first: where a straight line would meet the plane.
+    rise = (np.diff(lines, axis=0, append=2.0 * lines[-1:] - lines[-2:-1]) @ normals[:, :, None]).ravel()[off]
+    guess = np.clip(-height[off] / np.where(np.abs(rise) > exact, rise, np.inf), -20.0, 20.0)
+    begin = np.clip(plane + np.floor(guess).astype(np.intp), 0, count - 2) * width + off % width
     for _ in range(SLICING_ROUNDS):
         if not off.size:
             break
-        plane = station[off]
-        low = flat[index[off] * width + off % width]
-        step = flat[(index[off] + 1) * width + off % width] - low
-        rise = np.einsum("ij,ij->i", step, normals[plane])
-        start = np.einsum("ij,ij->i", low, normals[plane]) - offsets[plane]
+        low = np.take(flat, begin, axis=0)
+        step = np.take(flat, begin + width, axis=0) - low
+        rise = np.einsum("ij,ij->i", step, normal)
+        start = np.einsum("ij,ij->i", low, normal) - offset
         part = -start / np.where(np.abs(rise) > exact, rise, np.inf)
         place[off] = low + np.clip(part, -1.0, 2.0)[:, None] * step
         # Where the line was left by its piece, the piece that the plane should lie in is tried next.
-        beyond = (part < 0.0) | (part > 1.0)
-        off, part = off[beyond], part[beyond]
-        index[off] = np.clip(index[off] + np.floor(np.clip(part, -8.0, 8.0)).astype(np.intp), 0, count - 2)
-    local = (place.reshape(lines.shape) - directrix[:, None]) @ frames
-    return local[..., 1:]
+        ahead = begin // width + np.floor(np.clip(part, -8.0, 8.0)).astype(np.intp)
+        following = np.clip(ahead, 0, count - 2) * width + off % width
+        beyond = np.flatnonzero(following != begin)
+        off, begin = off[beyond], following[beyond]
+        normal, offset = np.take(normal, beyond, axis=0), offset[beyond]
+    return (place.reshape(lines.shape) - directrix[:, None]) @ frames[:, :, 1:]
 
 
 def _turned(quaternions: FloatArray | None, jacobian: FloatArray) -> FloatArray | None:

@@ -38,7 +38,7 @@ def frechet(a: FloatArray, b: FloatArray) -> float:
     ----------
     .. [1] T. Eiter, H. Mannila. Computing discrete Fréchet distance. CD-TR 94/64, TU Vienna, 1994.
     """
-    return float(_along_diagonals(_distances(a, b), summed=False))
+    return _along_diagonals(_distances(a, b), summed=False)
 
 
 def dtw(a: FloatArray, b: FloatArray) -> float:
@@ -59,7 +59,7 @@ def dtw(a: FloatArray, b: FloatArray) -> float:
     .. [1] H. Sakoe, S. Chiba. Dynamic programming algorithm optimization for spoken word recognition.
        IEEE TASSP 26(1), 1978. doi:10.1109/TASSP.1978.1163055
     """
-    return float(_along_diagonals(_distances(a, b), summed=True))
+    return _along_diagonals(_distances(a, b), summed=True)
 
 
 def sse(a: FloatArray, b: FloatArray) -> float:
@@ -137,7 +137,7 @@ def _distances(a: FloatArray, b: FloatArray) -> FloatArray:
     return np.linalg.norm(_path(a, "a")[:, None] - _path(b, "b")[None], axis=2)
 
 
-def _along_diagonals(cost: FloatArray, *, summed: bool) -> np.float64:
+def _along_diagonals(cost: FloatArray, *, summed: bool) -> float:
     """Least sum, or least maximum, of costs (K, L) over monotone ways from corner to corner."""
     rows, columns = cost.shape
     flipped = cost[:, ::-1]
@@ -152,4 +152,4 @@ def _along_diagonals(cost: FloatArray, *, summed: bool) -> np.float64:
         fresh = np.full(rows + 1, np.inf)
         fresh[low + 1 : high + 1] = best + here if summed else np.maximum(best, here)
         older, latest = latest, fresh
-    return latest[rows]
+    return float(latest[rows])

@@ -14,13 +14,16 @@ GREATEST_SLOPE = 2.0
 """A section widens or narrows along the curve by at most this much per length [-]."""
 
 
+FINE = 2.0**32
+"""Angles are told apart to this part of the step between vertices."""
+
 FULL_SPILL = 0.1
 """A point this far beyond the boundary, relative to it, raises the next vertices in full proportion [-]."""
 
 
 def vertex_angles(count: int) -> FloatArray:
     """Angles of the vertices, (count,) array from 0 [rad]."""
-    return 2.0 * np.pi / count * np.arange(count)
+    return np.arange(count, dtype=np.float64) * (2.0 * np.pi / count)
 
 
 def bins(angles: FloatArray, count: int) -> tuple[IntArray, FloatArray]:
@@ -109,13 +112,12 @@ def loop_radii(loops: FloatArray, count: int) -> FloatArray:
         [m].
     """
     x, y = loops[..., 0], loops[..., 1]
-    angle = np.arctan2(y, x) * (count / (2.0 * np.pi))
+    # Angles in steps, on a grid on which sums are exact: a ray through a shared vertex belongs to one edge.
+    angle = np.rint(np.arctan2(y, x) * (count / (2.0 * np.pi)) * FINE) / FINE
     turn = _next(angle) - angle
     turn -= count * np.round(turn / count)
-    low = np.minimum(angle, angle + turn)
-    # A ray through a shared vertex belongs to both edges, whatever the rounding.
-    first = np.ceil(low - 1e-9).astype(np.intp).ravel()
-    rays = np.floor(low + np.abs(turn) + 1e-9).astype(np.intp).ravel() - first + 1
+    first = np.ceil(np.minimum(angle, angle + turn)).astype(np.intp).ravel()
+    rays = np.ceil(np.maximum(angle, angle + turn)).astype(np.intp).ravel() - first
     edge = np.repeat(np.arange(rays.size), rays)
     ray = (first - np.cumsum(rays) + rays)[edge] + np.arange(edge.size)
     ray %= count

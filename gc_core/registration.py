@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -235,26 +235,27 @@ def _merged(source: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatAr
     keep, member = np.unique(group, return_inverse=True)
     total = np.zeros((len(keep), 3))
     np.add.at(total, member, target)
-    return source[keep], total / np.bincount(member)[:, None]
+    counts = np.bincount(member).astype(np.float64)[:, None]
+    return source[keep], np.asarray(total / counts, dtype=np.float64)
 
 
 def _fit(all_sources: FloatArray, all_targets: FloatArray, regularization: float) -> ThinPlateSpline:
     source, target = _merged(all_sources, all_targets)
     origin, image = source.mean(axis=0), target.mean(axis=0)
     centred, moved = source - origin, target - image
-    _, sizes, axes = np.linalg.svd(centred)
-    rank = int((sizes > FLAT * max(sizes[0], SAME_PLACE)).sum()) if sizes[0] > SAME_PLACE else 0
+    axes = _spanned_axes(centred)
+    rank = len(axes)
     scale = float(np.sqrt((centred**2).sum() / len(source))) or 1.0
     turn = _turn(centred, moved) if 0 < rank < 3 else np.eye(3)
     if len(source) == 2:
         moved = _not_collapsed(centred, moved)
-    spanned = axes[:rank].T
+    spanned = axes.T
     weights, stretch = _solve(source, centred @ spanned, moved - centred @ turn.T, scale, regularization)
     # The kernel's mean goes into the image, so that `image` is where `origin` would go without bending.
     linear = turn + stretch[1:].T @ spanned.T
     energy = float(np.einsum("li,lm,mi->", weights, _kernel(source, source, scale), weights)) / scale
     spline = ThinPlateSpline(
-        centres=read_only(source),
+        centres=read_only(source if rank + 1 < len(source) else np.zeros((0, 3))),
         weights=read_only(weights if rank + 1 < len(source) else np.zeros((0, 3))),
         linear=read_only(linear),
         origin=read_only(origin),
@@ -265,8 +266,14 @@ def _fit(all_sources: FloatArray, all_targets: FloatArray, regularization: float
         case=_case(len(source), rank, not np.array_equal(turn, np.eye(3)), len(all_sources) - len(source)),
         residual=0.0,
     )
-    miss = float(np.linalg.norm(spline(all_sources) - all_targets, axis=1).max())
-    return ThinPlateSpline(**{**vars(spline), "residual": miss})
+    return replace(spline, residual=float(np.linalg.norm(spline(all_sources) - all_targets, axis=1).max()))
+
+
+def _spanned_axes(centred: FloatArray) -> FloatArray:
+    """Orthonormal directions (rank, 3) in which points (L, 3) about their mean differ."""
+    spread, axes = np.linalg.eigh(centred.T @ centred)
+    sizes = np.sqrt(np.maximum(spread, 0.0))
+    return np.asarray(axes.T[sizes > max(FLAT * float(sizes[-1]), SAME_PLACE)], dtype=np.float64)
 
 
 def _solve(
@@ -280,14 +287,14 @@ def _solve(
     system[:count, count + 1 :] = coordinates / scale
     system[count:, :count] = system[:count, count:].T
     right = np.concatenate((displacement, np.zeros((rank + 1, 3))))
-    solution = np.linalg.solve(system, right)
+    solution = np.asarray(np.linalg.solve(system, right), dtype=np.float64)
     polynomial = solution[count:]
     return solution[:count], np.concatenate((polynomial[:1], polynomial[1:] / scale))
 
 
 def _kernel(points: FloatArray, centres: FloatArray, scale: float) -> FloatArray:
     """-|x - s| / scale, (P, L) array."""
-    return cdist(points, centres) * (-1.0 / scale)
+    return np.asarray(cdist(points, centres), dtype=np.float64) * (-1.0 / scale)
 
 
 def _turn(source: FloatArray, target: FloatArray) -> FloatArray:

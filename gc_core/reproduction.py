@@ -6,12 +6,12 @@ at the start itself, wherever that is.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gc_core.arrays import BoolArray, FloatArray, IntArray, finite, read_only
+from gc_core.arrays import BoolArray, FloatArray, IntArray, finite, read_only_fields
 from gc_core.cylinder import ON_BOUNDARY, GeneralizedCylinder
 from gc_core.demonstration import sign_continuous
 from gc_core.errors import InvalidSettingError, UnknownOptionError
@@ -52,10 +52,7 @@ class Reproduction:
     """Law of the ratio."""
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if isinstance(value, np.ndarray):
-                object.__setattr__(self, field.name, read_only(value))
+        read_only_fields(self)
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +119,7 @@ def reproduce(
     if not 0.0 <= final_ratio < np.inf:
         raise InvalidSettingError("final_ratio", final_ratio, "a ratio of at least 0")
     single = np.ndim(start) == 1
-    starts = finite([start] if single else start, "start", (None, 3))
+    starts = finite(start, "start", (3,))[None] if single else finite(start, "start", (None, 3))
     joins = _joined_at(cylinder, starts, at) if at is not None else _joined(cylinder, starts)
     first = float(joins.stations.min()) if len(starts) else 0.0
     stations = np.concatenate(([first], np.arange(int(first) + 1.0, len(cylinder.directrix))))
@@ -130,8 +127,10 @@ def reproduce(
     begin = np.interp(joins.stations, np.arange(len(cylinder.directrix)), cylinder.arc_length)
     ratios = _ratios(joins.ratios, law, final_ratio, gone, begin)
     runs = _runs(cylinder, stations, joins.angles, ratios)
-    positions = _begun_at(starts, runs, stations, joins.stations, gone, float(cylinder.arc_length[-1]))
-    return _reproduction(cylinder, stations, positions, ratios, joins.inside, law, single)
+    positions = _begun_at(
+        starts, runs, stations, joins.stations, gone=gone, length=float(cylinder.arc_length[-1])
+    )
+    return _reproduction(cylinder, stations, positions, ratios, inside=joins.inside, law=law, single=single)
 
 
 def _reproduction(
@@ -139,6 +138,7 @@ def _reproduction(
     stations: FloatArray,
     positions: FloatArray,
     ratios: FloatArray,
+    *,
     inside: BoolArray,
     law: str,
     single: bool,
@@ -250,6 +250,7 @@ def _begun_at(
     runs: FloatArray,
     stations: FloatArray,
     joins: FloatArray,
+    *,
     gone: FloatArray,
     length: float,
 ) -> FloatArray:

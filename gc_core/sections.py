@@ -74,24 +74,31 @@ def ellipse(points: FloatArray, count: int, half_width: float) -> FloatArray:
     .. [1] L. G. Khachiyan. Rounding of polytopes in the real number model of computation.
        Mathematics of Operations Research 21(2), 1996.
     """
-    x, y = points[..., 0], points[..., 1]
-    weights = np.full(x.shape, 1.0 / x.shape[1])
-    thin = half_width**2
+    weights = np.full(points.shape[:2], 1.0 / points.shape[1])
+    inverse = _inverse_moments(points, weights, half_width)
+    spread = _quadratic(points, inverse)
     for _ in range(ELLIPSE_ROUNDS):
-        xx, xy, yy = (
-            (weights * x * x).sum(1) + thin,
-            (weights * x * y).sum(1),
-            (weights * y * y).sum(1) + thin,
-        )
-        det = (xx * yy - xy * xy)[:, None]
-        spread = (yy[:, None] * x * x - 2.0 * xy[:, None] * x * y + xx[:, None] * y * y) / det
         weights = weights * np.maximum(spread, 1e-12)
         weights = weights / weights.sum(axis=1, keepdims=True)
-    scale = np.maximum(spread.max(axis=1), 1.0)[:, None]
+        inverse = _inverse_moments(points, weights, half_width)
+        spread = _quadratic(points, inverse)
     angles = vertex_angles(count)
-    cos, sin = np.cos(angles), np.sin(angles)
-    form = (yy[:, None] * cos**2 - 2.0 * xy[:, None] * cos * sin + xx[:, None] * sin**2) / (det * scale)
-    return 1.0 / np.sqrt(form)
+    rays = np.stack((np.cos(angles), np.sin(angles)), axis=1)
+    scale = np.maximum(spread.max(axis=1), 1.0)[:, None]
+    return np.sqrt(scale / _quadratic(rays[None], inverse))
+
+
+def _inverse_moments(points: FloatArray, weights: FloatArray, half_width: float) -> FloatArray:
+    """Inverse second moments (N, 3): xx, xy, yy of weighted points (N, n, 2), none thinner than that."""
+    x, y, thin = points[..., 0], points[..., 1], half_width**2
+    xx, xy, yy = (weights * x * x).sum(1) + thin, (weights * x * y).sum(1), (weights * y * y).sum(1) + thin
+    return np.stack((yy, -xy, xx), axis=1) / (xx * yy - xy * xy)[:, None]
+
+
+def _quadratic(vectors: FloatArray, form: FloatArray) -> FloatArray:
+    """Values (N, K) of quadratic forms (N, 3) at vectors (N or 1, K, 2)."""
+    x, y = vectors[..., 0], vectors[..., 1]
+    return form[:, :1] * x * x + 2.0 * form[:, 1:2] * x * y + form[:, 2:] * y * y
 
 
 def hull(points: FloatArray, count: int, half_width: float) -> FloatArray:
@@ -178,7 +185,7 @@ def _spline_loops(corners: FloatArray) -> FloatArray:
     step = np.maximum(step, 1e-3 * step.max(axis=1, keepdims=True))
     bend = _periodic_curvatures(chord / step[..., None], step)
     per_piece = CURVE_SAMPLES // corners.shape[1]
-    part = (np.arange(per_piece) / per_piece)[None, None, :, None]
+    part = np.linspace(0.0, 1.0, per_piece, endpoint=False)[None, None, :, None]
     rest = 1.0 - part
     square = (step**2)[:, :, None, None] / 6.0
     straight = rest * corners[:, :, None, :] + part * following[:, :, None, :]
@@ -191,13 +198,14 @@ def _spline_loops(corners: FloatArray) -> FloatArray:
 def _periodic_curvatures(slope: FloatArray, step: FloatArray) -> FloatArray:
     """Second derivatives (K, n, 2) at the knots of periodic cubics with these slopes and steps of pieces."""
     n = step.shape[1]
-    here = np.arange(n)
+    here = np.arange(n, dtype=np.intp)
     before = np.roll(step, 1, axis=1)
     matrix = np.zeros((len(step), n, n))
     matrix[:, here, here] = 2.0 * (step + before)
     matrix[:, here, (here + 1) % n] += step
     matrix[:, here, (here - 1) % n] += before
-    return np.linalg.solve(matrix, 6.0 * (slope - np.roll(slope, 1, axis=1)))
+    solved = np.linalg.solve(matrix, 6.0 * (slope - np.roll(slope, 1, axis=1)))
+    return np.asarray(solved, dtype=np.float64)
 
 
 SECTIONS: dict[str, Callable[[FloatArray, int, float], FloatArray]] = {

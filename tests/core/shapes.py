@@ -19,15 +19,15 @@ def bundle(seed: int, count: int = 4, samples: int = 120, spread: float = 0.02) 
     base = 0.5 * np.outer(u, [1.0, 0.3, 0.2]) + waves @ rng.normal(
         scale=[[0.06], [0.03], [0.01]], size=(3, 3)
     )
-    return [_one(rng, base, u, waves, spread, j) for j in range(count)]
+    return [_one(rng, base, u, waves, spread=spread, name=f"Demonstration {j + 1}") for j in range(count)]
 
 
 def _one(
-    rng: np.random.Generator, base: FloatArray, u: FloatArray, waves: FloatArray, spread: float, j: int
+    rng: np.random.Generator, base: FloatArray, u: FloatArray, waves: FloatArray, *, spread: float, name: str
 ) -> Demonstration:
     wobble = waves @ rng.normal(scale=spread / 3.0, size=(3, 3)) + rng.normal(scale=spread, size=3)
     duration = rng.uniform(2.0, 3.0)
-    return Demonstration(duration * u, base + wobble, name=f"Demonstration {j + 1}")
+    return Demonstration(duration * u, base + wobble, name=name)
 
 
 def line(

@@ -43,7 +43,7 @@ def test_distances_between_paths_are_symmetric_and_zero_for_the_same(seed: int) 
 def test_frechet_of_a_shifted_path_is_the_shift() -> None:
     (a,) = paths(0, 30)
 
-    np.testing.assert_allclose(metrics.frechet(a, a + [0.0, 3.0, 4.0]), 5.0)
+    np.testing.assert_allclose(metrics.frechet(a, a + np.array([0.0, 3.0, 4.0])), 5.0)
 
 
 @given(seed=seeds, factor=st.floats(0.1, 10.0))
