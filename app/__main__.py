@@ -1,42 +1,73 @@
 """The command line: ``gc-teach`` serves; the other commands work on files."""
 
+import logging
+import os
+import sys
 import webbrowser
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Final
 
 import tyro
 from tyro.extras import SubcommandApp
 
-cli = SubcommandApp()
+from app import commands
+from gc_core import GcError
 
-Files = Annotated[tuple[Path, ...], tyro.conf.Positional]
-OneFile = Annotated[Path, tyro.conf.Positional]
+DESCRIPTION: Final = "Teach a robot arm a motion in the browser; `gc-teach` alone serves the app."
+
+cli: Final = SubcommandApp()
 
 
 @cli.command
 def serve(
-    files: Files = (),
+    files: Annotated[tuple[Path, ...], tyro.conf.Positional] = (),
     host: str = "127.0.0.1",
     port: int = 8080,
     library: str = "",
-    open: bool = False,
+    open: tyro.conf.FlagCreatePairsOff[bool] = False,
 ) -> None:
-    """Serve the teaching app; with FILES, a fresh page opens on their demonstrations.
+    """Serve the teaching app; a fresh page opens on the files' demonstrations, or on *Reaching*.
 
     Args:
         files: Recordings to open (.mat .csv .npy .npz .h5 .hdf5).
-        host: Address to listen on; the default is this computer only.
+        host: Address to listen on; by default only this computer can connect.
         port: Port to listen on.
         library: Database of the saved skills, for instance sqlite:///skills.db.
         open: Open the page in the browser of this computer.
     """
-    from app.library import default_url  # noqa: PLC0415 - only `serve` needs viser, placo and the database
+    # Only this command needs viser, placo and the database, which take a second to import.
+    from app.library import default_url  # noqa: PLC0415
     from app.server import Options, Server, first_document  # noqa: PLC0415
 
-    first = first_document([str(file) for file in files])
+    logging.basicConfig(level=logging.INFO, format="%(message)s")
+    first = first_document(files)
     server = Server(Options(host, port, library or default_url()), first)
-    address = f"http://{'127.0.0.1' if host in ('0.0.0.0', '') else host}:{server.port}/"
+    address = f"http://{'127.0.0.1' if host == '0.0.0.0' else host}:{server.port}/"
     print(f"gc-teach is ready: {address}   (Ctrl+C saves and stops)", flush=True)
     if open:
         webbrowser.open(address)
     server.wait()
+
+
+cli.command(commands.encode)
+cli.command(commands.reproduce)
+
+
+def main(args: Sequence[str] | None = None) -> None:
+    """Run the command that the arguments name; without one, serve."""
+    arguments = list(sys.argv[1:] if args is None else args)
+    if not arguments or (arguments[0].startswith("-") and arguments[0] not in ("-h", "--help")):
+        arguments = ["serve", *arguments]
+    try:
+        cli.cli(prog="gc-teach", description=DESCRIPTION, args=arguments)
+    except GcError as error:
+        print(error, file=sys.stderr)
+        sys.exit(1)
+    except BrokenPipeError:  # `gc-teach encode ... | head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    main()

@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Final
 
 import viser
@@ -180,7 +181,7 @@ class TooManySessionsError(GcError):
         self.n_sessions = n_sessions
 
 
-def first_document(files: Sequence[str]) -> Callable[[], Document]:
+def first_document(files: Sequence[str | Path]) -> Callable[[], Document]:
     """Say what a fresh session opens: the files named on the command line, or *Reaching*.
 
     Raises
