@@ -21,6 +21,7 @@ from app.gesture import Pull, Track
 from app.handpull import HandPull
 from app.model import Model, learn
 from app.store import Offer, Plan, Playback, State, Store
+from gc_core import GcError
 
 SLIP: Final = 0.001
 """A pull shorter than this was a slip of the hand and changes nothing [m]."""
@@ -57,10 +58,7 @@ class Desk:
 
     def state(self) -> State:
         """Take a snapshot for panels and scene."""
-        document = self._shown()
-        if self.model.source is not document:
-            self.model = learn(document, self.model)
-            self._refresh()
+        document = self._learned()
         pull = self._pull
         message, warning = self._words()
         return State(
@@ -79,6 +77,14 @@ class Desk:
             saved=self.saved is self.store.document,
         )
 
+    def _learned(self) -> Document:
+        """Give what is shown, and see to it that it is learned."""
+        document = self._shown()
+        if self.model.source is not document:
+            self.model = learn(document, self.model)
+            self._refresh()
+        return document
+
     def _shown(self) -> Document:
         """Give the document as it would be if what is pulled were let go now."""
         pull = self._pull
@@ -86,7 +92,11 @@ class Desk:
             return self.store.document
         basis = pull.drawn() if isinstance(pull, HandPull) else self._track
         if self._preview[0] is not basis:
-            self._preview = basis, self._preview_of(pull)
+            self._preview = basis, self._preview[1]
+            try:
+                self._preview = basis, self._preview_of(pull)
+            except GcError as error:  # pulled too far: what was shown last stays
+                self.say(str(error), warning=True)
         return self._preview[1]
 
     def _preview_of(self, pull: Pull | HandPull) -> Document:
@@ -243,11 +253,11 @@ class Desk:
         self._ends = drag.time + gesture.GRACE if drag.phase == "end" else None
 
     def _grab(self, drag: Drag) -> None:
-        goes_on = self._pull is not None and self._ends is not None and self._pull.node == drag.node
-        if goes_on and self._track is not None:  # Shift was pressed or let go in mid-drag
+        if self._track is not None and self._goes_on(drag):  # Shift was pressed or let go in mid-drag
             self._track = gesture.follow(self._track, drag)
             return
         self.let_go(drag.time)
+        self._preview = None, self._learned()  # an edit or a release may not be learned yet
         self._pull = self._grasp(drag)
         if self._pull is None:
             return
@@ -259,6 +269,12 @@ class Desk:
             self.playback = replace(self.playback, playing=False, time=0.0, run=run)
             self._refresh()
             self._driver.lead()
+
+    def _goes_on(self, drag: Drag) -> bool:
+        pull = self._pull
+        if pull is None or pull.node != drag.node or self._ends is None or drag.time > self._ends:
+            return False
+        return not isinstance(pull, HandPull) or pull.records != drag.aside
 
     def _grasp(self, drag: Drag) -> Pull | HandPull | None:
         if drag.node != "/hand":
