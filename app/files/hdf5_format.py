@@ -9,7 +9,7 @@ from __future__ import annotations
 import io
 from typing import Any, Final, cast
 
-import h5py  # pyright: ignore[reportMissingTypeStubs] - it has none
+import h5py  # pyright: ignore[reportMissingTypeStubs]  # it has none
 import numpy as np
 
 from app.document import FloatArray

@@ -11,7 +11,7 @@ import zlib
 from typing import Any, Final, cast
 
 import numpy as np
-import scipy.io  # pyright: ignore[reportMissingTypeStubs] - it has none
+import scipy.io  # pyright: ignore[reportMissingTypeStubs]  # it has none
 from numpy.typing import NDArray
 
 from app.document import FloatArray

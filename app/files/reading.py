@@ -38,16 +38,20 @@ class Reading:
 
     @property
     def summary(self) -> str:
-        """One line for a teacher."""
+        """One line for a teacher, for the guessed unit."""
+        return self.summary_in(self.unit)
+
+    def summary_in(self, unit: Unit) -> str:
+        """One line for a teacher, for a unit."""
         n = len(self.demonstrations)
         what = "1 demonstration" if n == 1 else f"{n} demonstrations"
-        centimetres = " x ".join(f"{100.0 * METRES[self.unit] * extent:.0f}" for extent in self.size)
+        centimetres = " x ".join(f"{100.0 * METRES[unit] * extent:.0f}" for extent in self.size)
         assumed = f" (no times in the file: {ASSUMED_RATE:.0f} samples a second assumed)"
         clock = "" if self.times_in_file else assumed
         left_out = f", {self.repeated} repeated samples left out" if self.repeated else ""
         return (
             f"{what} of {_span(self.durations)} s{clock}, {_span(self.samples)} samples each{left_out}; "
-            f"{centimetres} cm, read as {self.unit}."
+            f"{centimetres} cm, read as {unit}."
         )
 
     def accepted(self, unit: Unit | None = None, frame: Frame | None = None) -> list[Demonstration]:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from scipy.interpolate import (  # pyright: ignore[reportMissingTypeStubs] - SciPy has none
+from scipy.interpolate import (  # pyright: ignore[reportMissingTypeStubs]  # SciPy has none
     CubicSpline,
     PchipInterpolator,
 )

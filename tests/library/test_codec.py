@@ -54,7 +54,7 @@ def test_the_sample_document_has_no_default_value_anywhere() -> None:
     seen: set[type] = set()
     for part in parts(document()):
         seen.add(type(part))
-        for field in fields(part):  # type: ignore[arg-type] - parts are dataclasses
+        for field in fields(part):  # type: ignore[arg-type]  # parts are dataclasses
             if field.default is not MISSING:
                 value = getattr(part, field.name)
                 assert not same_content(value, field.default), f"{type(part).__name__}.{field.name}"

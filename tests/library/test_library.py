@@ -339,7 +339,7 @@ def test_time_of_a_save_after_one_gesture(benchmark: object, library: Library) -
     turn = iter(range(10**9))
     library.save("abc", versions[0])
 
-    benchmark(lambda: library.save("abc", versions[next(turn) % len(versions)]))  # type: ignore[operator] - a fixture
+    benchmark(lambda: library.save("abc", versions[next(turn) % len(versions)]))  # type: ignore[operator]  # a fixture
 
     assert library.load("abc") is not None
 
