@@ -91,6 +91,7 @@ try_run() {
     done
     page "http://127.0.0.1:$port/" || fail "the first page was not served."
     say "make run served its first page after $((SECONDS - began)) s"
+    sleep 5 # a person who stops it has looked at it first
     stop_server
 }
 
@@ -109,6 +110,7 @@ stop_server() {
         sleep 1
     done
     kill -0 "$server" 2>/dev/null && fail "it did not stop within 30 s of SIGTERM."
+    wait "$server" || fail "SIGTERM ended it without saving (status $?)."
     server=
     ! page "http://127.0.0.1:$port/healthz" 2>/dev/null || fail "it still serves after SIGTERM."
 }
