@@ -87,7 +87,7 @@ def page(lesson: Lesson, about: str, done: frozenset[str]) -> str:
     """Build the text as HTML; a skill's own sentence is escaped."""
     items = "".join(
         f'<div style="display:flex;gap:0.5rem;padding:0.15rem 0.75rem;font-size:0.8rem;line-height:1.4;'
-        f'opacity:{0.6 if step in done else 1}"><span>{DONE if step in done else OPEN}</span>'
+        f'opacity:{0.6 if step in done else 1}"><span style="flex:0 0 0.8rem">{DONE if step in done else OPEN}</span>'
         f"<span>{words.escape(text)}</span></div>"
         for step, text in lesson.steps
     )

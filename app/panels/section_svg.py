@@ -15,6 +15,8 @@ FOOT: Final = 22.0
 """Room below for the scale bar [px]."""
 BAR_LENGTHS: Final = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
 """The scale bar has one of these lengths [m]."""
+ZOOMS: Final = (1, 2, 4, 8)
+"""How often a slice is enlarged; few steps, so that a change of size is seen as such."""
 RED: Final = "light-dark(#C4161C,#FF5A4F)"
 BLUE: Final = "light-dark(#1F3FA8,#6E8BFF)"
 MAGENTA: Final = "light-dark(#E04BDC,#F59BF2)"
@@ -36,10 +38,12 @@ def section_svg(cylinder: GeneralizedCylinder, station: int, reproduction: Repro
     Returns
     -------
     str
-        An ``<svg>`` element, all slices of one cylinder at one scale.
+        An ``<svg>`` element. Slices of one cylinder have one scale, so that wide and narrow can be told
+        apart; one that would be too small to read is enlarged, and says so.
     """
     station = int(np.clip(station, 0, len(cylinder.directrix) - 1))
-    scale = _scale(cylinder)
+    zoom = _zoom(cylinder, station)
+    scale = zoom * _scale(cylinder)
     boundary = _pixels(_boundary(cylinder, station), scale)
     points = _pixels(_local(cylinder, station, cylinder.effective_points[station]), scale)
     parts = [
@@ -49,7 +53,7 @@ def section_svg(cylinder: GeneralizedCylinder, station: int, reproduction: Repro
         *_ray(cylinder, station, reproduction, scale),
         *(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.2" style="fill:{RED}"/>' for x, y in points.tolist()),
         _cross(),
-        _bar(scale),
+        _bar(scale, zoom),
         "</svg>",
     ]
     return "".join(parts)
@@ -94,6 +98,12 @@ def _scale(cylinder: GeneralizedCylinder) -> float:
     """Pixels per metre at which the widest cross-section fits."""
     room = 0.5 * min(WIDTH, HEIGHT - FOOT) - MARGIN
     return room / max(float(cylinder.radii.max()), 1e-3)
+
+
+def _zoom(cylinder: GeneralizedCylinder, station: int) -> int:
+    """How often a cross-section is enlarged: the largest of `ZOOMS` at which it fits."""
+    share = float(cylinder.radii[station].max() / cylinder.radii.max())
+    return max(zoom for zoom in ZOOMS if zoom * share <= 1.0)
 
 
 def _pixels(local: FloatArray, scale: float) -> FloatArray:
@@ -144,15 +154,16 @@ def _cross() -> str:
     return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4.2" style="fill:{BLUE}"/>'
 
 
-def _bar(scale: float) -> str:
+def _bar(scale: float, zoom: int) -> str:
     """A scale bar of a round length, about a quarter of the drawing wide."""
     length = max((b for b in BAR_LENGTHS if b * scale <= 0.3 * WIDTH), default=BAR_LENGTHS[0])
     x, y, width = MARGIN, HEIGHT - 8.0, length * scale
+    enlarged = f" (enlarged {zoom} times)" if zoom > 1 else ""
     return (
         f'<path d="M{x:.1f} {y - 4:.1f}V{y:.1f}H{x + width:.1f}V{y - 4:.1f}" fill="none" '
         'stroke="currentColor" stroke-width="1.2"/>'
         f'<text x="{x + width + 6:.1f}" y="{y:.1f}" font-size="11" fill="currentColor">'
-        f"{100 * length:g} cm</text>"
+        f"{100 * length:g} cm{enlarged}</text>"
     )
 
 

@@ -60,11 +60,22 @@ def test_a_station_beyond_the_end_is_the_last_one(model) -> None:
     assert section_svg(model.cylinder, 10_000, None) == section_svg(model.cylinder, 199, None)
 
 
-def test_the_scale_is_the_same_for_every_slice(model) -> None:
+def test_neighbouring_slices_have_one_scale(model) -> None:
     def bar(station: int) -> str:
         return ElementTree.fromstring(section_svg(model.cylinder, station, None)).find(f"{SVG}path").get("d")
 
-    assert bar(0) == bar(120)
+    assert len({bar(station) for station in range(0, 40, 5)}) == 1
+
+
+def test_only_a_slice_too_small_to_read_is_enlarged_and_says_so(model) -> None:
+    def words(station: int) -> str:
+        return ElementTree.fromstring(section_svg(model.cylinder, station, None)).find(f"{SVG}text").text
+
+    widest = int(model.cylinder.radii.max(axis=1).argmax())
+    narrowest = int(model.cylinder.radii.max(axis=1).argmin())
+
+    assert "enlarged" not in words(widest)
+    assert "enlarged" in words(narrowest)
 
 
 def test_the_widths_of_a_circle_are_its_diameter() -> None:
