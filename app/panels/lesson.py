@@ -85,14 +85,18 @@ def tried(before: Document | None, state: State) -> frozenset[str]:
 
 def page(lesson: Lesson, about: str, done: frozenset[str]) -> str:
     """Build the text as HTML; a skill's own sentence is escaped."""
-    items = "".join(
-        f'<div style="display:flex;gap:0.5rem;padding:0.15rem 0.75rem;font-size:0.8rem;line-height:1.4;'
-        f'opacity:{0.6 if step in done else 1}"><span style="flex:0 0 0.8rem">{DONE if step in done else OPEN}</span>'
-        f"<span>{words.escape(text)}</span></div>"
-        for step, text in lesson.steps
-    )
+    items = "".join(_item(text, step in done) for step, text in lesson.steps)
     head = words.note(words.escape(about), strong=True) if about.strip() else ""
     return head + words.note(words.escape(lesson.intro)) + items + '<div style="height:0.6rem"></div>'
+
+
+def _item(text: str, done: bool) -> str:
+    """One thing to try; the marks are equally wide, so that a tick moves nothing."""
+    return (
+        '<div style="display:flex;gap:0.5rem;padding:0.15rem 0.75rem;font-size:0.8rem;line-height:1.4;'
+        f'opacity:{0.6 if done else 1}"><span style="flex:0 0 0.8rem">{DONE if done else OPEN}</span>'
+        f"<span>{words.escape(text)}</span></div>"
+    )
 
 
 @cache
