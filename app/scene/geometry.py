@@ -19,6 +19,8 @@ Faces: TypeAlias = npt.NDArray[np.uint32]
 
 PICK_POINTS: Final = 48
 """Points of a pick tube; constant, so that its faces are sent once."""
+_X: Final = np.array([1.0, 0.0, 0.0])
+_Z: Final = np.array([0.0, 0.0, 1.0])
 _AROUND: Final = ((1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0))
 _BOX: Final = (
     (0, 1, 4), (1, 5, 4), (1, 2, 5), (2, 6, 5), (2, 3, 6), (3, 7, 6), (3, 0, 7), (0, 4, 7),
@@ -237,14 +239,12 @@ def across(directions: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     ahead, aside, up : (k, 3) arrays
         Orthonormal, with ``ahead`` x ``aside`` = ``up``.
     """
-    length = np.linalg.norm(directions, axis=1, keepdims=True)
+    length = np.sqrt(np.einsum("ij,ij->i", directions, directions))[:, None]
     still = length < 1e-9
-    ahead = np.where(still, [1.0, 0.0, 0.0], directions / np.where(still, 1.0, length))
-    steep = np.abs(ahead[:, 2:]) > 0.9
-    reference = np.where(steep, [1.0, 0.0, 0.0], [0.0, 0.0, 1.0])
-    aside = np.cross(reference, ahead)
-    aside /= np.linalg.norm(aside, axis=1, keepdims=True)
-    return ahead, aside, np.cross(ahead, aside)
+    ahead = np.where(still, _X, directions / np.where(still, 1.0, length))
+    aside = _cross(np.where(np.abs(ahead[:, 2:]) > 0.9, _X, _Z), ahead)
+    aside /= np.sqrt(np.einsum("ij,ij->i", aside, aside))[:, None]
+    return ahead, aside, _cross(ahead, aside)
 
 
 def quaternions(rotations: FloatArray) -> FloatArray:
@@ -296,6 +296,12 @@ def nearest_to_ray(points: FloatArray, origin: FloatArray, direction: FloatArray
     hit = distance <= max(reach, float(distance.min()))
     front = hit & (depth <= depth[hit].min() + 3.0 * reach)
     return int(np.argmin(np.where(front, distance, np.inf)))
+
+
+def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    """np.cross for (k, 3) arrays, without its overhead for short ones."""
+    (ax, ay, az), (bx, by, bz) = a.T, b.T
+    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=1)
 
 
 @cache

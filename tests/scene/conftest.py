@@ -1,0 +1,124 @@
+"""A scene on a real viser server, seen by a client without a browser."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from functools import cache
+
+import numpy as np
+import pytest
+import viser
+
+from app.actions import Drag
+from app.arm.protocol import LinkMesh
+from app.document import Document, FloatArray, Shown, View
+from app.model import learn
+from app.scene import Scene, draw_world
+from app.store import Hand, Playback, State
+from gc_core import Demonstration
+from tests.support.fake_client import FakeClient
+
+
+def demonstration(number: int) -> Demonstration:
+    u = np.linspace(0.0, 1.0, 120)
+    turn = 2.0 * np.pi * number / 5.0
+    width = 0.05 * (1.0 - u) + 0.005
+    aside = np.stack([np.cos(turn) * width, np.zeros_like(u), np.sin(turn) * width], axis=1)
+    middle = np.stack([0.2 * np.sin(2.0 * u), -0.3 - 0.3 * u, 0.5 - 0.35 * u], axis=1)
+    return Demonstration(times=4.0 * u, positions=middle + aside)
+
+
+@cache
+def document(count: int = 5) -> Document:
+    return Document("Reaching", demonstrations=tuple(Shown(demonstration(i)) for i in range(count)))
+
+
+@cache
+def state(count: int = 5) -> State:
+    model = learn(document(count))
+    return State(
+        document=model.source,
+        view=View(),
+        model=model,
+        hand=Hand(np.zeros(2), np.array([0.1, -0.4, 0.3])),
+        playback=Playback(time=1.0, duration=4.0),
+    )
+
+
+def preview(before: State, shift: FloatArray) -> State:
+    """What a person sees while pulling on the first demonstration."""
+    first, *others = before.document.demonstrations
+    moved = Demonstration(times=first.demonstration.times, positions=first.demonstration.positions + shift)
+    after = replace(before.document, demonstrations=(Shown(moved), *others))
+    return replace(before, document=after, model=learn(after, before.model), dragging="/hand")
+
+
+class TwoLinks:
+    """An arm of two links that turn about z, as much of it as is drawn."""
+
+    link_meshes = tuple(
+        LinkMesh(link, np.eye(3, dtype=np.float32), np.array([[0, 1, 2]], dtype=np.uint32), (40, 40, 40))
+        for link in ("upper", "lower")
+    )
+
+    def link_poses(self, joints: FloatArray, gripper: float) -> dict[str, FloatArray]:  # noqa: ARG002
+        poses = {}
+        for link, angle in zip(("upper", "lower"), joints, strict=True):
+            pose = np.eye(4)
+            pose[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+            poses[link] = pose
+        return poses
+
+
+@dataclass
+class Recorder:
+    """Actions that only remember."""
+
+    drags: list[Drag] = field(default_factory=list)
+    sought: list[float] = field(default_factory=list)
+
+    def drag(self, drag: Drag) -> None:
+        self.drags.append(drag)
+
+    def seek(self, time: float) -> None:
+        self.sought.append(time)
+
+
+@dataclass
+class Stage:
+    """One tab and the scene that is drawn into it."""
+
+    client: FakeClient
+    handle: viser.ClientHandle
+    scene: Scene
+    actions: Recorder
+    now: float = 7.0
+
+    def draw(self, shown: State) -> None:
+        """Draw, and wait until the tab has it."""
+        with self.handle.atomic():
+            self.scene.draw(shown)
+        self.settle()
+
+    def settle(self) -> None:
+        self.handle.flush()
+        self.client.wait_quiet(0.1)
+
+
+@pytest.fixture
+def stage() -> Iterator[Stage]:
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    joined: list[viser.ClientHandle] = []
+    server.on_client_connect(joined.append)
+    draw_world(server.scene, TwoLinks())
+    try:
+        with FakeClient(f"ws://127.0.0.1:{server.get_port()}/", keep_log=True) as client:
+            client.wait(lambda _: joined)
+            actions = Recorder()
+            made: list[Stage] = []
+            scene = Scene(joined[0].scene, actions, TwoLinks(), lambda: made[0].now)
+            made.append(Stage(client, joined[0], scene, actions))
+            yield made[0]
+    finally:
+        server.stop()
