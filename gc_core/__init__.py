@@ -23,8 +23,9 @@ from gc_core.errors import (
     ZeroQuaternionError,
 )
 from gc_core.generalization import generalize
+from gc_core.landmarks import Landmark
 from gc_core.refinement import soft_correction
-from gc_core.registration import Landmark, ThinPlateSpline, register
+from gc_core.registration import ThinPlateSpline, register
 from gc_core.reproduction import Reproduction, reproduce
 
 __all__ = [

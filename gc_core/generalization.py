@@ -91,33 +91,36 @@ def _cut_again(lines: FloatArray, directrix: FloatArray, frames: FloatArray) -> 
     """
     count, width = lines.shape[:2]
     normals = frames[:, :, 0]
+    offsets = np.einsum("ij,ij->i", directrix, normals)
+    exact = 1e-9 * float(arc_length(directrix)[-1])
+    height = ((lines @ normals[:, :, None])[..., 0] - offsets[:, None]).ravel()
     flat = lines.reshape(-1, 3)
     place = flat.copy()
-    offsets = np.einsum("ij,ij->i", directrix, normals)
-    height = ((lines @ normals[:, :, None])[..., 0] - offsets[:, None]).ravel()
-    exact = 1e-9 * float(arc_length(directrix)[-1])
     off = np.flatnonzero(np.abs(height) > exact)
     plane = off // width
-    normal, offset = np.take(normals, plane, axis=0), offsets[plane]
     # Sample of the line that begins the piece to try first: where a straight line would meet the plane.
-    rise = (np.diff(lines, axis=0, append=2.0 * lines[-1:] - lines[-2:-1]) @ normals[:, :, None]).ravel()[off]
+    step = np.diff(lines, axis=0, append=2.0 * lines[-1:] - lines[-2:-1])
+    rise = (step @ normals[:, :, None]).ravel()[off]
     guess = np.clip(-height[off] / np.where(np.abs(rise) > exact, rise, np.inf), -20.0, 20.0)
     begin = np.clip(plane + np.floor(guess).astype(np.intp), 0, count - 2) * width + off % width
+    steps = step.reshape(-1, 3)
     for _ in range(SLICING_ROUNDS):
         if not off.size:
             break
-        low = np.take(flat, begin, axis=0)
-        step = np.take(flat, begin + width, axis=0) - low
-        rise = np.einsum("ij,ij->i", step, normal)
-        start = np.einsum("ij,ij->i", low, normal) - offset
-        part = -start / np.where(np.abs(rise) > exact, rise, np.inf)
-        place[off] = low + np.clip(part, -1.0, 2.0)[:, None] * step
+        low, along = np.take(flat, begin, axis=0), np.take(steps, begin, axis=0)
+        normal = np.take(normals, off // width, axis=0)
+        rise = np.einsum("ij,ij->i", along, normal)
+        start = np.take(offsets, off // width) - np.einsum("ij,ij->i", low, normal)
+        part = start / np.where(np.abs(rise) > exact, rise, np.inf)
+        along *= np.clip(part, -1.0, 2.0)[:, None]
+        place[off] = low + along
         # Where the line was left by its piece, the piece that the plane should lie in is tried next.
+        left = np.flatnonzero((part < 0.0) | (part > 1.0))
+        off, begin, part = off[left], begin[left], part[left]
         ahead = begin // width + np.floor(np.clip(part, -8.0, 8.0)).astype(np.intp)
         following = np.clip(ahead, 0, count - 2) * width + off % width
-        beyond = np.flatnonzero(following != begin)
-        off, begin = off[beyond], following[beyond]
-        normal, offset = np.take(normal, beyond, axis=0), offset[beyond]
+        fresh = following != begin
+        off, begin = off[fresh], following[fresh]
     return (place.reshape(lines.shape) - directrix[:, None]) @ frames[:, :, 1:]
 
 

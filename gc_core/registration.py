@@ -1,4 +1,4 @@
-"""Landmarks and the smooth map of space that takes them from where they were to where they are."""
+"""The smooth map of space that takes landmarks from where they were to where they are."""
 
 from __future__ import annotations
 
@@ -10,10 +10,8 @@ from numpy.typing import ArrayLike
 from scipy.spatial.distance import cdist
 
 from gc_core.arrays import FloatArray, IntArray, finite, read_only
-from gc_core.errors import InvalidSettingError, LandmarkMismatchError, ShapeError, ZeroQuaternionError
-
-FRAME_ARM = 0.1
-"""A landmark with an orientation acts through points this far out on its axes [m]."""
+from gc_core.errors import InvalidSettingError, LandmarkMismatchError
+from gc_core.landmarks import Landmark, acting_points, landmarks, rotation
 
 SAME_PLACE = 1e-9
 """Landmarks nearer than this are one [m]."""
@@ -26,28 +24,6 @@ GREATEST_SHEAR = np.deg2rad(60.0)
 
 LEAST_STRETCH = 0.05
 """Two landmarks are never brought closer than to this part of their distance: space would collapse [-]."""
-
-
-@dataclass(frozen=True, eq=False)
-class Landmark:
-    """A place that matters, such as an object or a goal; with an orientation, a frame."""
-
-    position: FloatArray
-    """(3,) [m]."""
-    orientation: FloatArray | None = None
-    """(4,) unit quaternion w, x, y, z; or None."""
-    name: str = ""
-    """How the person calls it."""
-
-    def __post_init__(self) -> None:
-        what = f"Landmark {self.name!r}" if self.name else "A landmark"
-        object.__setattr__(self, "position", finite(self.position, f"{what}: position", (3,)))
-        if self.orientation is not None:
-            quaternion = finite(self.orientation, f"{what}: orientation", (4,))
-            length = float(np.linalg.norm(quaternion))
-            if length < 1e-9:
-                raise ZeroQuaternionError(what, 0)
-            object.__setattr__(self, "orientation", read_only(quaternion / length))
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,46 +157,17 @@ def register(
     ShapeError, NotFiniteError, InvalidSettingError
         If the points or the regularization are not valid.
     """
-    before, after = _landmarks(source), _landmarks(target)
+    before, after = landmarks(source), landmarks(target)
     if len(before) != len(after):
         raise LandmarkMismatchError(len(before), len(after))
-    pairs = [_points(a, b) for a, b in zip(before, after, strict=True)]
+    pairs = [acting_points(a, b) for a, b in zip(before, after, strict=True)]
     if not pairs:
         return ThinPlateSpline.fit(np.zeros((0, 3)), np.zeros((0, 3)), regularization)
     places, moved = (np.concatenate(side) for side in zip(*pairs, strict=True))
     if len(pairs) == 1 and len(places) > 1:
-        (a, b), (one, two) = (before[0], after[0]), (_rotation(before[0]), _rotation(after[0]))
+        (a, b), (one, two) = (before[0], after[0]), (rotation(before[0]), rotation(after[0]))
         return _affine(two @ one.T, a.position, b.position, "one frame: a rigid motion")
     return ThinPlateSpline.fit(places, moved, regularization)
-
-
-def quaternion_matrices(quaternions: FloatArray) -> FloatArray:
-    """Turn unit quaternions (..., 4) w, x, y, z into rotation matrices (..., 3, 3)."""
-    w, x, y, z = np.moveaxis(quaternions, -1, 0)
-    rows = (
-        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
-    )
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
-
-
-def _landmarks(given: Sequence[Landmark] | FloatArray) -> list[Landmark]:
-    if isinstance(given, np.ndarray) and given.ndim != 2 and given.size:
-        raise ShapeError("landmarks", "(any, 3)", given.shape)
-    return [item if isinstance(item, Landmark) else Landmark(item) for item in given]
-
-
-def _rotation(landmark: Landmark) -> FloatArray:
-    return np.eye(3) if landmark.orientation is None else quaternion_matrices(landmark.orientation)
-
-
-def _points(source: Landmark, target: Landmark) -> tuple[FloatArray, FloatArray]:
-    """Points (1, 3) or (7, 3) through which a landmark acts, before and after."""
-    if source.orientation is None or target.orientation is None:
-        return source.position[None], target.position[None]
-    arms = FRAME_ARM * np.concatenate((np.zeros((1, 3)), np.eye(3), -np.eye(3)))
-    return source.position + arms @ _rotation(source).T, target.position + arms @ _rotation(target).T
 
 
 def _affine(linear: FloatArray, origin: FloatArray, image: FloatArray, case: str) -> ThinPlateSpline:

@@ -14,7 +14,7 @@ from gc_core import (
     reproduce,
     same_content,
 )
-from gc_core.registration import quaternion_matrices
+from gc_core.landmarks import quaternion_matrices
 from gc_core.sections import SECTIONS
 from tests.core.shapes import bundle, seeds
 from tests.core.test_encode import in_plane, ratios_to_polygons

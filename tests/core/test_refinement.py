@@ -139,7 +139,7 @@ def test_the_nearest_allowed_place_is_allowed_and_nearest(seed: int, count: int)
     nearest = nearest_allowed(places, points, normals)
 
     assert np.einsum("pci,pci->pc", nearest[:, None] - points, normals).min() >= -1e-9
-    # The nearest place of a convex set sees every other allowed place, such as `inner`, at 90 degrees or more.
+    # The nearest place of a convex set sees every other allowed place, such as `inner`, at 90 degrees up.
     assert np.einsum("pi,pi->p", places - nearest, inner - nearest).max() <= 1e-8
 
 

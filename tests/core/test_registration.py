@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import RBFInterpolator
 
 from gc_core import InvalidSettingError, Landmark, LandmarkMismatchError, ThinPlateSpline, register
-from gc_core.registration import quaternion_matrices
+from gc_core.landmarks import quaternion_matrices
 from tests.core.shapes import rotation, seeds
 
 EVERYWHERE = np.random.default_rng(0).uniform(-0.5, 0.5, size=(200, 3))

@@ -1,0 +1,67 @@
+"""Places and frames that matter, and the points through which they act on a map."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from gc_core.arrays import FloatArray, finite, read_only
+from gc_core.errors import ShapeError, ZeroQuaternionError
+
+FRAME_ARM = 0.1
+"""A landmark with an orientation acts through points this far out on its axes [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Landmark:
+    """A place that matters, such as an object or a goal; with an orientation, a frame."""
+
+    position: FloatArray
+    """(3,) [m]."""
+    orientation: FloatArray | None = None
+    """(4,) unit quaternion w, x, y, z; or None."""
+    name: str = ""
+    """How the person calls it."""
+
+    def __post_init__(self) -> None:
+        what = f"Landmark {self.name!r}" if self.name else "A landmark"
+        object.__setattr__(self, "position", finite(self.position, f"{what}: position", (3,)))
+        if self.orientation is not None:
+            quaternion = finite(self.orientation, f"{what}: orientation", (4,))
+            length = float(np.linalg.norm(quaternion))
+            if length < 1e-9:
+                raise ZeroQuaternionError(what, 0)
+            object.__setattr__(self, "orientation", read_only(quaternion / length))
+
+
+def quaternion_matrices(quaternions: FloatArray) -> FloatArray:
+    """Turn unit quaternions (..., 4) w, x, y, z into rotation matrices (..., 3, 3)."""
+    w, x, y, z = np.moveaxis(quaternions, -1, 0)
+    rows = (
+        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+    )
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def landmarks(given: Sequence[Landmark] | FloatArray) -> list[Landmark]:
+    """Take places (L, 3) [m] or landmarks as landmarks."""
+    if isinstance(given, np.ndarray) and given.ndim != 2 and given.size:
+        raise ShapeError("landmarks", "(any, 3)", given.shape)
+    return [item if isinstance(item, Landmark) else Landmark(item) for item in given]
+
+
+def rotation(landmark: Landmark) -> FloatArray:
+    """Axes (3, 3) of a landmark as columns; the base frame's when it has none."""
+    return np.eye(3) if landmark.orientation is None else quaternion_matrices(landmark.orientation)
+
+
+def acting_points(source: Landmark, target: Landmark) -> tuple[FloatArray, FloatArray]:
+    """Points (1, 3) or (7, 3) through which a landmark acts, before and after."""
+    if source.orientation is None or target.orientation is None:
+        return source.position[None], target.position[None]
+    arms = FRAME_ARM * np.concatenate((np.zeros((1, 3)), np.eye(3), -np.eye(3)))
+    return source.position + arms @ rotation(source).T, target.position + arms @ rotation(target).T

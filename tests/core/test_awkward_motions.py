@@ -1,0 +1,65 @@
+"""Motions that break what is written for smooth ones."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+
+from gc_core import Demonstration, encode, generalize, register, reproduce
+from gc_core.alignment import ALIGNMENTS
+from gc_core.arrays import FloatArray
+from gc_core.sections import SECTIONS
+from tests.core.shapes import bundle
+from tests.core.test_encode import ratios_to_polygons
+
+ASIDE = (0.0, 0.02, 0.05)
+
+
+def side_by_side(path: FloatArray) -> list[Demonstration]:
+    return [Demonstration(0.01 * np.arange(len(path)), path + np.array([0.0, 0.0, aside])) for aside in ASIDE]
+
+
+def noisy() -> list[Demonstration]:
+    rng = np.random.default_rng(0)
+    return [
+        Demonstration(d.times, d.positions + rng.normal(scale=0.003, size=(1500, 3)))
+        for d in bundle(1, 4, 1500)
+    ]
+
+
+TURN = np.linspace(0.0, 2.0 * np.pi, 300)
+THERE_AND_BACK = np.abs(np.linspace(-1.0, 1.0, 301))[:, None] * [0.3, 0.0, 0.0]
+WALK = np.cumsum(np.random.default_rng(0).normal(size=(50, 3)), axis=0)
+MOTIONS = {
+    "two samples": side_by_side(np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])),
+    "a closed loop": side_by_side(0.2 * np.stack((np.cos(TURN), np.sin(TURN), 0.0 * TURN), axis=1)),
+    "there and back": side_by_side(THERE_AND_BACK),
+    "a random walk": side_by_side(WALK),
+    "every sample held ten times": side_by_side(np.repeat(bundle(2, 1)[0].positions, 10, axis=0)),
+    "a sensor's noise": noisy(),
+    "far from the origin and late": [Demonstration(d.times + 1.7e9, d.positions + 100.0) for d in bundle(3)],
+    "smaller than the least width": [Demonstration(d.times, 1e-3 * d.positions) for d in bundle(4)],
+    "a hundred thousand samples": bundle(5, 2, 100_000),
+    "forty demonstrations": bundle(6, 40, 200),
+}
+
+
+@pytest.mark.parametrize("align_by", ALIGNMENTS)
+@pytest.mark.parametrize("section", sorted(SECTIONS))
+@pytest.mark.parametrize("name", MOTIONS)
+def test_awkward_motions_are_learned_run_and_bent_without_a_warning(
+    name: str, section: str, align_by: str
+) -> None:
+    shown = MOTIONS[name]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        cylinder = encode(shown, section=section, align_by=align_by)
+        run = reproduce(cylinder, shown[0].positions[0])
+        ends = cylinder.directrix[[0, -1]]
+        bent = generalize(cylinder, register(ends, ends + np.array([[0.0, 0.1, 0.0], [0.1, 0.0, 0.1]])))
+
+    assert ratios_to_polygons(cylinder).max() <= 1.0 + 1e-9
+    assert (np.diff(cylinder.times) > 0.0).all()
+    assert all(np.isfinite(values).all() for values in (cylinder.surface(), run.positions, bent.surface()))
