@@ -122,7 +122,7 @@ class Mouse:
     def _say(self, phase: str) -> None:
         grabbed = self._at
         self.desk.drag(
-            Drag(self._node, phase, grabbed, self._at, self.now, vertical=self._vertical, aside=self._aside)  # type: ignore[arg-type]
+            Drag(self._node, phase, grabbed, self._at, self.now, vertical=self._vertical, aside=self._aside)
         )
 
 

@@ -57,7 +57,7 @@ SAME: dict[str, Edit] = {
     "mute_demonstration": lambda d: edits.mute_demonstration(d, 1, False),
     "trim_demonstration": lambda d: edits.trim_demonstration(d, 1, 0.0, 99.0),
     "move_start": lambda d: edits.move_start(d, 0, d.starts[0].copy()),
-    "move_landmark": lambda d: edits.move_landmark(d, "goal", d.landmarks[1].now),  # type: ignore[arg-type]
+    "move_landmark": lambda d: edits.move_landmark(d, "goal", d.landmarks[1].now),
     "put_landmark_back": lambda d: edits.put_landmark_back(d, "start"),
     "enable_rule": lambda d: edits.enable_rule(d, 0, True),
 }
@@ -65,18 +65,18 @@ SAME: dict[str, Edit] = {
 
 NONSENSE: dict[str, Edit] = {
     "an empty name": lambda d: edits.rename_skill(d, "   "),
-    "an unknown section": lambda d: edits.set_section(d, "star"),  # type: ignore[arg-type]
-    "an unknown alignment": lambda d: edits.set_align_by(d, "magic"),  # type: ignore[arg-type]
+    "an unknown section": lambda d: edits.set_section(d, "star"),
+    "an unknown alignment": lambda d: edits.set_align_by(d, "magic"),
     "too few stations": lambda d: edits.set_stations(d, 3),
-    "stations that are no number": lambda d: edits.set_stations(d, float("nan")),  # type: ignore[arg-type]
+    "stations that are no number": lambda d: edits.set_stations(d, float("nan")),
     "a demonstration that is not there": lambda d: edits.mute_demonstration(d, 9, True),
     "a negative index": lambda d: edits.delete_demonstration(d, -1),
     "a trim that leaves nothing": lambda d: edits.trim_demonstration(d, 0, 2.0, 1.0),
     "a start that is not a number": lambda d: edits.move_start(d, 0, np.full(3, np.nan)),
     "a start beyond all reach": lambda d: edits.add_start(d, np.array([1e9, 0.0, 0.0])),
     "a start of two numbers": lambda d: edits.add_start(d, np.zeros(2)),
-    "a start of words": lambda d: edits.add_start(d, ["a", "b", "c"]),  # type: ignore[arg-type]
-    "a ragged start": lambda d: edits.add_start(d, [0.0, [1.0, 2.0], 3.0]),  # type: ignore[arg-type, list-item]
+    "a start of words": lambda d: edits.add_start(d, ["a", "b", "c"]),
+    "a ragged start": lambda d: edits.add_start(d, [0.0, [1.0, 2.0], 3.0]),
     "a start that is not there": lambda d: edits.remove_start(d, 4),
     "an unknown landmark": lambda d: edits.move_landmark(d, "moon", ELSEWHERE),
     "a rule that is not there": lambda d: edits.enable_rule(d, 3, False),
@@ -128,7 +128,7 @@ def test_a_trim_keeps_the_samples_between_two_times_and_starts_the_clock_again()
     original, part = taught().demonstrations[0].demonstration, document.demonstrations[0].demonstration
     kept = (original.times >= 0.5) & (original.times <= 2.0)
     np.testing.assert_array_equal(part.positions, original.positions[kept])
-    np.testing.assert_array_equal(part.gripper, original.gripper[kept])  # type: ignore[index]
+    np.testing.assert_array_equal(part.gripper, original.gripper[kept])
     np.testing.assert_allclose(part.times, original.times[kept] - original.times[kept][0])
 
 

@@ -37,7 +37,7 @@ NOTHING_THERE = (
 
 
 def drag(phase: str, pointer: FloatArray, *, vertical: bool = False) -> Drag:
-    return Drag("/start/0", phase, GRAB, pointer, 0.0, vertical=vertical)  # type: ignore[arg-type]
+    return Drag("/start/0", phase, GRAB, pointer, 0.0, vertical=vertical)
 
 
 @given(parts=PARTS)
