@@ -162,6 +162,8 @@ def _delimiter(line: str) -> str | None:
 def _split(line: str, delimiter: str | None) -> list[str]:
     if delimiter is None:
         return line.split()
+    if '"' not in line:
+        return [field.strip() for field in line.split(delimiter)]
     try:
         (fields,) = csv.reader([line], delimiter=delimiter)
         return [field.strip() for field in fields]
