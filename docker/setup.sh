@@ -31,6 +31,9 @@ missing_packages() {
     if [ "$purpose" = test ]; then
         command -v chromium >/dev/null || command -v chromium-browser >/dev/null \
             || command -v google-chrome >/dev/null || echo chromium
+        # The drivers of the browser and of pyright are Node programs, and Node is linked to this one.
+        compgen -G '/usr/lib/*/libatomic.so.1' >/dev/null || compgen -G '/usr/lib*/libatomic.so.1' >/dev/null \
+            || echo libatomic1
         ls /usr/share/fonts/truetype/dejavu/*.ttf >/dev/null 2>&1 || echo fonts-dejavu-core
     fi
     # Some packages are compiled where their authors offer no wheel for the machine.
