@@ -75,6 +75,7 @@ class _Landmark:
     def _hide(self) -> None:
         (self._ball or self._stem).hide()
         self._ghost.hide()
+        self._height = None  # so that the stand is shown again, though it is the same
 
     def _draw_here(self, anchor: Anchor) -> None:
         # The stand need not follow every tenth of a millimetre.
