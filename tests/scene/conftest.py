@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import queue
+import threading
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -71,18 +73,31 @@ class TwoLinks:
         return poses
 
 
-@dataclass
 class Recorder:
-    """Actions that only remember."""
+    """Actions that only remember; they come from viser's thread."""
 
-    drags: list[Drag] = field(default_factory=list)
-    sought: list[float] = field(default_factory=list)
+    def __init__(self) -> None:
+        self.drags: list[Drag] = []
+        self.sought: list[float] = []
+        self._news = threading.Condition()
 
     def drag(self, drag: Drag) -> None:
-        self.drags.append(drag)
+        with self._news:
+            self.drags.append(drag)
+            self._news.notify_all()
 
     def seek(self, time: float) -> None:
-        self.sought.append(time)
+        with self._news:
+            self.sought.append(time)
+            self._news.notify_all()
+
+    def wait(self, *, drags: int = 0, seeks: int = 0) -> None:
+        """Wait until so many have arrived."""
+        with self._news:
+            arrived = self._news.wait_for(
+                lambda: len(self.drags) >= drags and len(self.sought) >= seeks, timeout=10.0
+            )
+        assert arrived, f"{len(self.drags)} drags, {len(self.sought)} seeks"
 
 
 @dataclass
@@ -109,16 +124,16 @@ class Stage:
 @pytest.fixture
 def stage() -> Iterator[Stage]:
     server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    joined: list[viser.ClientHandle] = []
-    server.on_client_connect(joined.append)
+    joined: queue.Queue[viser.ClientHandle] = queue.Queue()
+    server.on_client_connect(joined.put)
     draw_world(server.scene, TwoLinks())
     try:
         with FakeClient(f"ws://127.0.0.1:{server.get_port()}/", keep_log=True) as client:
-            client.wait(lambda _: joined)
+            handle = joined.get(timeout=10.0)
             actions = Recorder()
             made: list[Stage] = []
-            scene = Scene(joined[0].scene, actions, TwoLinks(), lambda: made[0].now)
-            made.append(Stage(client, joined[0], scene, actions))
+            scene = Scene(handle.scene, actions, TwoLinks(), lambda: made[0].now)
+            made.append(Stage(client, handle, scene, actions))
             yield made[0]
     finally:
         server.stop()

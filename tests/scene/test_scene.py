@@ -214,7 +214,7 @@ def test_links_turn_with_the_joints(stage: Stage) -> None:
 def test_a_pull_reaches_the_actions_with_its_node_and_time(stage: Stage, name: str) -> None:
     stage.draw(state())
     stage.client.drag(name, [(0.1, 0.2, 0.3)])
-    stage.client.wait(lambda _: len(stage.actions.drags) == 3)
+    stage.actions.wait(drags=3)
 
     assert [d.phase for d in stage.actions.drags] == ["start", "update", "end"]
     assert {d.node for d in stage.actions.drags} == {name}
@@ -225,7 +225,7 @@ def test_a_pull_reaches_the_actions_with_its_node_and_time(stage: Stage, name: s
 def test_shift_pulls_up_and_down(stage: Stage) -> None:
     stage.draw(state())
     stage.client.drag("/landmarks/goal", [(0.1, 0.2, 0.3)], modifier="shift")
-    stage.client.wait(lambda _: len(stage.actions.drags) == 3)
+    stage.actions.wait(drags=3)
 
     assert all(drag.vertical for drag in stage.actions.drags)
 
@@ -233,7 +233,7 @@ def test_shift_pulls_up_and_down(stage: Stage) -> None:
 def test_the_right_button_moves_the_hand_aside(stage: Stage) -> None:
     stage.draw(state())
     stage.client.drag("/hand", [(0.1, 0.2, 0.3)], button="right")
-    stage.client.wait(lambda _: len(stage.actions.drags) == 3)
+    stage.actions.wait(drags=3)
 
     assert all(drag.aside for drag in stage.actions.drags)
 
@@ -242,7 +242,7 @@ def test_the_right_button_moves_the_hand_aside(stage: Stage) -> None:
 def test_a_pointer_that_makes_no_sense_is_dropped(stage: Stage, bad: float) -> None:
     stage.draw(state())
     stage.client.drag("/hand", [(bad, 0.0, 0.0), (0.1, 0.2, 0.3)])
-    stage.client.wait(lambda _: len(stage.actions.drags) == 3)
+    stage.actions.wait(drags=3)
 
     assert all(np.all(np.abs(drag.pointer) < 1.0) for drag in stage.actions.drags)
 
@@ -250,7 +250,7 @@ def test_a_pointer_that_makes_no_sense_is_dropped(stage: Stage, bad: float) -> N
 def test_a_pull_with_a_bad_end_ends_where_it_last_was(stage: Stage) -> None:
     stage.draw(state())
     stage.client.drag("/hand", [(0.1, 0.2, 0.3), (float("nan"), 0.0, 0.0)])
-    stage.client.wait(lambda _: len(stage.actions.drags) == 3)
+    stage.actions.wait(drags=3)
 
     assert stage.actions.drags[-1].phase == "end"
     np.testing.assert_allclose(stage.actions.drags[-1].pointer, [0.1, 0.2, 0.3], atol=1e-9)
@@ -260,7 +260,7 @@ def test_a_click_on_the_directrix_moves_the_playhead_there(stage: Stage) -> None
     stage.draw(state())
     run = state().model.runs[0].reproduction
     stage.client.click("/directrix/pick", at=state().model.cylinder.directrix[90])
-    stage.client.wait(lambda _: stage.actions.sought)
+    stage.actions.wait(seeks=1)
 
     assert stage.actions.sought[0] == pytest.approx(run.times[90], abs=0.1)
 
