@@ -6,12 +6,16 @@ returns at once, so that a viser callback never waits and never changes anything
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol, TypeAlias
+from typing import Any, Final, Literal, Protocol, TypeAlias
 
 from app.document import Document, FloatArray
 from app.files import Frame, Unit
 
 Phase: TypeAlias = Literal["start", "update", "end"]
+ViewName: TypeAlias = Literal["3D", "Front", "Side", "Top"]
+
+VIEW_NAMES: Final[tuple[ViewName, ...]] = ("3D", "Front", "Side", "Top")
+"""Named viewpoints, as the view buttons show them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +78,10 @@ class Actions(Protocol):
 
     def toggle_gripper(self) -> None:
         """Open or close the hand; recorded while it is pulled."""
+        ...
+
+    def see_from(self, view: ViewName) -> None:
+        """Look from one of the named viewpoints of the scene."""
         ...
 
     def offer_file(self, name: str, content: bytes) -> None:

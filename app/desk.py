@@ -9,26 +9,22 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
-import numpy as np
-
-from app import edits, gesture, handpull, player
+from app import edits, gesture, handpull, player, sentences
 from app.actions import Drag
 from app.arm.protocol import Arm
 from app.document import Document, FloatArray, View
 from app.driver import Driver, Lead, lead_at
 from app.files import Frame, Reading, Unit
-from app.gesture import Pull, Track
+from app.gesture import Pull
+from app.grasp import Grasp
 from app.handpull import HandPull
-from app.model import Model, learn
+from app.model import learn
 from app.store import Offer, Plan, Playback, State, Store
-from gc_core import GcError
 
 SLIP: Final = 0.001
 """A pull shorter than this was a slip of the hand and changes nothing [m]."""
 SHORTEST: Final = 0.03
 """A demonstration shorter than this was a slip of the hand [m]."""
-UNREACHED: Final = 0.001
-"""The arm plays a sample exactly when it comes this close [m]."""
 
 
 class Desk:
@@ -45,11 +41,7 @@ class Desk:
         self.playback = Playback(playing=True)
         self._arm = arm
         self._driver = Driver(arm)
-        self._track: Track | None = None
-        self._pull: Pull | HandPull | None = None
-        self._ends: float | None = None
-        self._before: Model = self.model
-        self._preview: tuple[object, Document] = (None, document)
+        self._held: Grasp | None = None
         self.saved = self.saving = document
         self._reading: Reading | None = None
         self._refresh()
@@ -59,7 +51,6 @@ class Desk:
     def state(self) -> State:
         """Take a snapshot for panels and scene."""
         document = self._learned()
-        pull = self._pull
         message, warning = self._words()
         return State(
             document=document,
@@ -68,7 +59,7 @@ class Desk:
             hand=self._driver.hand,
             playback=replace(self.playback, time=min(self.playback.time, self.playback.duration)),
             plan=self.plan if self.plan is not None and self.plan.source is self.model else None,
-            dragging=None if pull is None else pull.node,
+            dragging=None if self._held is None else self._held.node,
             undo_name=self.store.undo_name,
             redo_name=self.store.redo_name,
             message=message,
@@ -79,37 +70,20 @@ class Desk:
 
     def _learned(self) -> Document:
         """Give what is shown, and see to it that it is learned."""
-        document = self._shown()
+        document = self.store.document
+        if self._held is not None:
+            document = self._held.shown(document)
         if self.model.source is not document:
             self.model = learn(document, self.model)
             self._refresh()
         return document
 
-    def _shown(self) -> Document:
-        """Give the document as it would be if what is pulled were let go now."""
-        pull = self._pull
-        if pull is None:
-            return self.store.document
-        basis = pull.drawn() if isinstance(pull, HandPull) else self._track
-        if self._preview[0] is not basis:
-            self._preview = basis, self._preview[1]
-            try:
-                self._preview = basis, self._preview_of(pull)
-            except GcError as error:  # pulled too far: what was shown last stays
-                self.say(str(error), warning=True)
-        return self._preview[1]
-
-    def _preview_of(self, pull: Pull | HandPull) -> Document:
-        document = self.store.document
-        if isinstance(pull, HandPull):
-            part = pull.preview(self._before.cylinder)
-            return document if part is None else edits.add_demonstrations(document, [part])
-        return document if self._track is None else pull.apply(document, self._track.displacement)
-
     def _words(self) -> tuple[str, bool]:
         shortfall = self._driver.hand.shortfall
         if shortfall is not None:
             return f"The arm cannot follow: {shortfall.reason}.", True
+        if self._held is not None and self._held.problem:
+            return self._held.problem, True
         if self.model.problem is not None:
             return self.model.problem, True
         return self.message, self.warning
@@ -163,8 +137,8 @@ class Desk:
         """Open or close the hand; recorded while it is pulled."""
         self.look(gripper_closed=not self.view.gripper_closed)
         gripper = float(self.view.gripper_closed)
-        if isinstance(self._pull, HandPull):
-            self._pull.set_gripper(gripper)
+        if self._held is not None and isinstance(self._held.pull, HandPull):
+            self._held.pull.set_gripper(gripper)
         self._driver.grip(gripper)
 
     # --- files -------------------------------------------------------------------------
@@ -216,14 +190,9 @@ class Desk:
     def accept_plan(self, plan: Plan) -> None:
         """Take over a joint path from the worker; says where the arm cannot follow."""
         self.plan = plan
-        missed = plan.path.errors > UNREACHED
-        if plan.source is self.model and bool(np.any(missed)):
-            share, worst = 100 * float(np.mean(missed)), 100 * float(np.max(plan.path.errors))
-            self.say(
-                f"The arm cannot reach {share:.0f} % of this run; it comes within {worst:.1f} cm. "
-                "Move the start or the goal nearer to the arm.",
-                warning=True,
-            )
+        words = sentences.unreached(plan.path)
+        if words is not None and plan.source is self.model:
+            self.say(words, warning=True)
 
     def seek(self, time: float) -> None:
         """Move the playhead; the arm goes there."""
@@ -241,55 +210,46 @@ class Desk:
 
     def drag(self, drag: Drag) -> None:
         """Begin, continue or end a pull."""
-        if drag.phase == "start":
-            self._grab(drag)
-        if self._track is None or self._pull is None or self._pull.node != drag.node:
-            return
-        if drag.phase != "start":
-            self._track = gesture.follow(self._track, drag)
-        if isinstance(self._pull, HandPull):
-            self._pull.aim(drag.time, self._track.displacement)
-            self._driver.pulled(self._pull.advance(drag.time))
-        self._ends = drag.time + gesture.GRACE if drag.phase == "end" else None
+        held = self._held
+        if drag.phase == "start" and (held is None or not held.goes_on(drag)):
+            self.let_go(drag.time)
+            self._learned()  # an edit or a release may not be learned yet
+            held = self._held = self._grab(drag)
+        elif held is not None and held.node == drag.node:
+            held.follow(drag)
+        if held is not None and isinstance(held.pull, HandPull):
+            self._driver.pulled(held.pull.advance(drag.time))
 
-    def _grab(self, drag: Drag) -> None:
-        if self._track is not None and self._goes_on(drag):  # Shift was pressed or let go in mid-drag
-            self._track = gesture.follow(self._track, drag)
-            return
-        self.let_go(drag.time)
-        self._preview = None, self._learned()  # an edit or a release may not be learned yet
-        self._pull = self._grasp(drag)
-        if self._pull is None:
-            return
-        self._track = gesture.begin(drag)
-        self._before = self.model
+    def _grab(self, drag: Drag) -> Grasp | None:
+        pull: Pull | HandPull | None
+        if drag.node == "/hand":
+            pull = HandPull(self._arm, self._driver.hand, drag.time, records=not drag.aside)
+            self.playback = replace(self.playback, playing=False)
+        else:
+            pull = gesture.pull_on(drag.node, drag.grabbed, self.model, self.view.pull_width)
+        if pull is None:
+            return None
         self.say("")
         if drag.node.startswith("/start/"):
             run = int(drag.node.rpartition("/")[2])
             self.playback = replace(self.playback, playing=False, time=0.0, run=run)
             self._refresh()
             self._driver.lead()
-
-    def _goes_on(self, drag: Drag) -> bool:
-        pull = self._pull
-        if pull is None or pull.node != drag.node or self._ends is None or drag.time > self._ends:
-            return False
-        return not isinstance(pull, HandPull) or pull.records != drag.aside
-
-    def _grasp(self, drag: Drag) -> Pull | HandPull | None:
-        if drag.node != "/hand":
-            return gesture.pull_on(drag.node, drag.grabbed, self.model, self.view.pull_width)
-        self.playback = replace(self.playback, playing=False)
-        return HandPull(self._arm, self._driver.hand, drag.time, records=not drag.aside)
+        held = Grasp(pull, gesture.begin(drag), self.model)
+        if isinstance(pull, HandPull):
+            pull.aim(drag.time, held.track.displacement)
+        return held
 
     def let_go(self, now: float) -> None:
         """End whatever is pulled, and keep what it did."""
-        pull, track = self._pull, self._track
-        self._pull = self._track = self._ends = None
+        held, self._held = self._held, None
+        if held is None:
+            return
+        pull = held.pull
         if isinstance(pull, HandPull):
             self._let_hand_go(pull, now)
-        elif pull is not None and track is not None and np.linalg.norm(track.displacement) >= SLIP:
-            self.store.edit(lambda d: pull.apply(d, track.displacement), pull.name, now=now)
+        elif held.moved >= SLIP:
+            self.store.edit(lambda d: pull.apply(d, held.track.displacement), pull.name, now=now)
             if pull.node.startswith("/start/"):
                 self.playback = player.play(replace(self.playback, time=0.0), True)
 
@@ -301,17 +261,12 @@ class Desk:
             return
         drawn = pull.drawn()
         if drawn.length < SHORTEST:
-            self.say(
-                f"That was only {100 * drawn.length:.1f} cm, so it was not kept. Pull the hand through the "
-                "whole motion and let go at its end.",
-                warning=True,
-            )
+            self.say(sentences.too_short(drawn), warning=True)
             return
         shown = handpull.demonstration(drawn)
         self.store.edit(lambda d: edits.add_demonstrations(d, [shown]), "demonstrate", now=now)
-        count = sum(not shown.muted for shown in self.store.document.demonstrations)
-        more = "Show it once more, a little differently." if count < 3 else f"The tube holds {count} now."
-        self.say(f"That was a demonstration of {drawn.times[-1]:.1f} s. {more}")
+        learned_from = sum(not shown.muted for shown in self.store.document.demonstrations)
+        self.say(sentences.demonstrated(drawn, learned_from))
 
     def move_hand(self, position: FloatArray, now: float) -> None:
         """Move the hand, and the start of the next demonstration, without recording."""
@@ -331,15 +286,17 @@ class Desk:
         bool
             Whether something still moves.
         """
-        if self._ends is not None and now >= self._ends:
+        held = self._held
+        if held is not None and held.ends is not None and now >= held.ends:
             self.let_go(now)
-        if isinstance(self._pull, HandPull):
-            if self._ends is None:
-                self._driver.pulled(self._pull.advance(now))
+            held = None
+        if held is not None and isinstance(held.pull, HandPull):
+            if held.ends is None:
+                self._driver.pulled(held.pull.advance(now))
             return True
         self.playback = player.advance(self.playback, dt, speed=self.view.speed, loop=self.view.loop)
         moving = self._driver.tick(now, dt, self._lead())
-        return moving or self._pull is not None or self.playback.playing
+        return moving or held is not None or self.playback.playing
 
     def _lead(self) -> Lead | None:
         """Find where the playhead wants the arm; in the rest of a loop it glides back to the start."""

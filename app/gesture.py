@@ -20,6 +20,8 @@ from gc_core import Constraint, Demonstration, Reproduction, soft_correction
 
 GRACE: Final = 0.15
 """A pull that ends and begins again on the same thing within this time is one [s]."""
+TABLE: Final = 0.0
+"""Height of the table top [m]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,12 +103,12 @@ def _pull_landmark(node: str, name: str, model: Model) -> Pull | None:
     origin = next((anchor.now for anchor in model.anchors if anchor.name == name), None)
     if origin is None:
         return None
-    return Pull(node, f"move {name}", lambda d, by: edits.move_landmark(d, name, origin + by))
+    return Pull(node, f"move {name}", lambda d, by: edits.move_landmark(d, name, _above(origin + by)))
 
 
 def _pull_start(node: str, index: int, model: Model) -> Pull:
     origin = model.runs[index].start - model.start_shift
-    return Pull(node, "move start of a new run", lambda d, by: edits.move_start(d, index, origin + by))
+    return Pull(node, "move start", lambda d, by: edits.move_start(d, index, _above(origin + by)))
 
 
 def _pull_demonstration(node: str, index: int, grabbed: FloatArray, model: Model, width: float) -> Pull:
@@ -134,6 +136,11 @@ def _pull_reproduction(node: str, original: Reproduction, grabbed: FloatArray, w
 def corrected(original: Demonstration, positions: FloatArray) -> Demonstration:
     """Give a demonstration other positions; its timing, orientations and gripper stay."""
     return replace(original, positions=positions)
+
+
+def _above(position: FloatArray) -> FloatArray:
+    """Keep what stands on the table from being pulled below it, which a flat pointer does easily."""
+    return np.maximum(position, [-np.inf, -np.inf, TABLE])
 
 
 def _nearest(positions: FloatArray, grabbed: FloatArray) -> int:

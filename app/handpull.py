@@ -51,7 +51,6 @@ class HandPull:
         self.begins_at: Final = hand
         self._arm = arm
         self._servo = servo.begin(arm, hand.joints, now)
-        self._target = hand.position
         self._off_since: float | None = None
         self._gripper = hand.gripper
         self._began = self._servo.time
@@ -60,8 +59,7 @@ class HandPull:
 
     def aim(self, time: float, displacement: FloatArray) -> None:
         """The pointer wants the hand this far from where it was grabbed [m]."""
-        self._target = self.begins_at.position + displacement
-        event = np.concatenate([[time], self._target])
+        event = np.concatenate([[time], self.begins_at.position + displacement])
         self._servo = replace(self._servo, pending=np.vstack([self._servo.pending, event]))
 
     def set_gripper(self, gripper: float) -> None:
@@ -122,14 +120,14 @@ class HandPull:
             joints,
             position,
             self._gripper,
-            wanted=None if shortfall is None else self._target,
+            wanted=None if shortfall is None else self._servo.target,
             shortfall=shortfall,
             recording=self._drawn.positions if self.records else None,
             returns_to=self.begins_at.position if self.records else None,
         )
 
     def _shortfall(self, joints: FloatArray) -> Shortfall | None:
-        short = self._arm.shortfall(joints, self._target)
+        short = self._arm.shortfall(joints, self._servo.target)
         if short is None:
             self._off_since = None
             return None

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from app import skills
-from app.actions import Drag
+from app.actions import Drag, ViewName
 from app.desk import Desk
 from app.document import Document, FloatArray
 from app.files import Frame, Unit
@@ -61,6 +61,10 @@ class Seat:
     def toggle_gripper(self) -> None:
         """See `Actions.toggle_gripper`."""
         self._post(lambda desk, _: desk.toggle_gripper())
+
+    def see_from(self, view: ViewName) -> None:
+        """See `Actions.see_from`."""
+        self._session.see_from(self._client_id, view)
 
     def offer_file(self, name: str, content: bytes) -> None:
         """See `Actions.offer_file`."""

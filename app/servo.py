@@ -74,6 +74,11 @@ class Servo:
         """Session time of the last tick [s]."""
         return self.tick / TICKS_PER_SECOND
 
+    @property
+    def target(self) -> FloatArray:
+        """(3,) where the hand is wanted at the last tick; behind the pointer by one event [m]."""
+        return _target(self.reference, self.waypoints)
+
 
 def begin(arm: Arm, joints: FloatArray, time: float) -> Servo:
     """Take the hand where it is.
@@ -217,9 +222,12 @@ def _one_tick(servo: Servo, arm: Arm) -> Servo:
     reference = _proceed(reference, waypoints, now)
     past = int(np.searchsorted(waypoints[:, 0], reference - _MEMORY, side="right"))
     waypoints = waypoints[max(0, past - 1) :]
-    target = np.array([np.interp(reference, waypoints[:, 0], waypoints[:, axis]) for axis in (1, 2, 3)])
-    joints = arm.step(servo.joints, target, _TICK)
+    joints = arm.step(servo.joints, _target(reference, waypoints), _TICK)
     return Servo(tick, joints, reference, waypoints, servo.pending[n_arrived:])
+
+
+def _target(reference: float, waypoints: FloatArray) -> FloatArray:
+    return np.array([np.interp(reference, waypoints[:, 0], waypoints[:, axis]) for axis in (1, 2, 3)])
 
 
 def _arrive(reference: float, waypoints: FloatArray, event: FloatArray) -> tuple[float, FloatArray]:

@@ -16,12 +16,14 @@ from typing import Final
 import viser
 
 from app import viewers
+from app.actions import ViewName
 from app.actor import Actor, Latest
 from app.arm.protocol import Arm
 from app.desk import Desk
 from app.document import Document
 from app.files import inspect_bytes
 from app.library import Library
+from app.scene import VIEWS
 from app.seat import Seat
 from app.store import Plan, State
 from app.viewers import Viewer
@@ -110,14 +112,23 @@ class Session:
         self._works = client.client_id
         seat = Seat(self, client.client_id)
         viewer = viewers.working(client, seat, self._arm, self.clock, self._workshop.skills)
-        self._viewers[client.client_id] = viewer
+        self._show(viewer)
 
     def _watch(self, client: viser.ClientHandle) -> None:
         def take_over() -> None:
             self._actor.post(lambda: self._take_over(client))
 
         seat = Seat(self, client.client_id)
-        self._viewers[client.client_id] = viewers.watching(client, seat, self._arm, self.clock, take_over)
+        self._show(viewers.watching(client, seat, self._arm, self.clock, take_over))
+
+    def _show(self, viewer: Viewer) -> None:
+        self._viewers[viewer.client.client_id] = viewer
+        viewer.scene.look_from(viewer.client.camera.position)
+
+        @viewer.client.camera.on_update
+        async def _(camera: viser.CameraHandle) -> None:
+            position = camera.position
+            self._actor.post(lambda: viewer.scene.look_from(position))
 
     def _take_over(self, client: viser.ClientHandle) -> None:
         former = None if self._works is None else self._viewers.get(self._works)
@@ -148,6 +159,16 @@ class Session:
             if client_id == self._works:
                 self._touched = self.clock()
                 act(self._desk, self._touched)
+
+        self._actor.post(action)
+
+    def see_from(self, client_id: int, view: ViewName) -> None:
+        """Move the camera of one tab, whether it works or watches."""
+
+        def action() -> None:
+            viewer = self._viewers.get(client_id)
+            if viewer is not None:
+                viewer.see_from(VIEWS[view])
 
         self._actor.post(action)
 

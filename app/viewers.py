@@ -14,7 +14,7 @@ from app.actions import Actions
 from app.arm.protocol import Arm
 from app.panels import Panels
 from app.panels.watch import WatchPanel
-from app.scene import Scene
+from app.scene import Scene, Viewpoint
 from app.store import State
 
 
@@ -35,6 +35,13 @@ class Viewer:
         with self.client.atomic():
             self.scene.draw(state)
             self.panels.draw(state)
+        self.client.flush()
+
+    def see_from(self, viewpoint: Viewpoint) -> None:
+        """Move the camera of this tab."""
+        with self.client.atomic():
+            self.client.camera.position = viewpoint.position
+            self.client.camera.look_at = viewpoint.look_at
         self.client.flush()
 
 

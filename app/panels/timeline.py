@@ -4,7 +4,7 @@ from typing import Final
 
 import viser
 
-from app.actions import Actions
+from app.actions import VIEW_NAMES, Actions
 from app.binding import Binding, assign, on_choice
 from app.player import SPEEDS
 from app.store import State
@@ -41,6 +41,8 @@ class TimelinePanel:
             "Run", ("1",), visible=False, hint="Which run (reproduction) the arm plays."
         )
         on_choice(self._runs, actions.choose_run)
+        views = gui.add_button_group("Look from", VIEW_NAMES)
+        on_choice(views, lambda place: actions.see_from(VIEW_NAMES[place]))
 
     def draw(self, state: State) -> None:
         """Follow the playhead."""

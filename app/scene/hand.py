@@ -26,6 +26,8 @@ from app.scene.style import (
 from app.scene.view import Eye
 from app.store import Hand, State
 
+MOVING: Final = 2.0
+"""While it plays the hand is harder to hit; its grip is that much wider."""
 MOST_POINTS: Final = 400
 """Of the recording so far; it is redrawn twenty times a second."""
 _BESIDE: Final = np.array([0.02, 0.0, 0.03])
@@ -45,7 +47,7 @@ class HandBall:
         """Put the ball at the tool tip."""
         hand = state.hand
         self._draw_ball(hand)
-        self._grip.aim(hand.position, self._eye.position)
+        self._grip.aim(hand.position, self._eye.position, scale=MOVING if state.playback.playing else 1.0)
 
     def _draw_ball(self, hand: Hand) -> None:
         if hand is self._hand:

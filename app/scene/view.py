@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 import viser
 
+from app.actions import ViewName
 from app.document import FloatArray
 
 
@@ -19,7 +20,7 @@ class Viewpoint:
     """[m]."""
 
 
-VIEWS: Final[dict[str, Viewpoint]] = {
+VIEWS: Final[dict[ViewName, Viewpoint]] = {
     "3D": Viewpoint((0.85, -1.45, 0.80), (0.0, -0.36, 0.25)),
     "Front": Viewpoint((0.0, -2.1, 0.30), (0.0, -0.36, 0.30)),
     "Side": Viewpoint((1.8, -0.36, 0.30), (0.0, -0.36, 0.30)),

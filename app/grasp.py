@@ -1,0 +1,69 @@
+"""What a person holds, from the press to the release, and how the document would be if it were let go now."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app import edits, gesture
+from app.actions import Drag
+from app.document import Document
+from app.gesture import Pull, Track
+from app.handpull import HandPull
+from app.model import Model
+from gc_core import GcError
+
+
+@dataclass(eq=False)
+class Grasp:
+    """One pull in progress."""
+
+    pull: Pull | HandPull
+    track: Track
+    before: Model
+    """What was shown when it was grabbed."""
+    ends: float | None = None
+    """The button was let go, and at this time the pull is over [s]."""
+    problem: str = ""
+    """Why it cannot be pulled any farther."""
+    _basis: object = None
+    _preview: Document | None = None
+
+    @property
+    def node(self) -> str:
+        """Scene name of what is held."""
+        return self.pull.node
+
+    @property
+    def moved(self) -> float:
+        """How far it was pulled [m]."""
+        return float(np.linalg.norm(self.track.displacement))
+
+    def goes_on(self, drag: Drag) -> bool:
+        """Whether a new part of the same pull begins: Shift was pressed or let go in mid-drag."""
+        if self.node != drag.node or self.ends is None or drag.time > self.ends:
+            return False
+        return not isinstance(self.pull, HandPull) or self.pull.records != drag.aside
+
+    def follow(self, drag: Drag) -> None:
+        """Take one more event into account."""
+        self.track = gesture.follow(self.track, drag)
+        self.ends = drag.time + gesture.GRACE if drag.phase == "end" else None
+        if isinstance(self.pull, HandPull):
+            self.pull.aim(drag.time, self.track.displacement)
+
+    def shown(self, document: Document) -> Document:
+        """Give the document as it would be if this were let go now; the same object while nothing changed."""
+        basis = self.pull.drawn() if isinstance(self.pull, HandPull) else self.track
+        if self._preview is None or self._basis is not basis:
+            self._basis = basis
+            try:
+                self._preview, self.problem = self._applied(document), ""
+            except GcError as error:  # pulled too far: what was shown last stays
+                self._preview, self.problem = self._preview or document, str(error)
+        return self._preview
+
+    def _applied(self, document: Document) -> Document:
+        if not isinstance(self.pull, HandPull):
+            return self.pull.apply(document, self.track.displacement)
+        part = self.pull.preview(self.before.cylinder)
+        return document if part is None else edits.add_demonstrations(document, [part])
