@@ -98,7 +98,9 @@ def grip_of(client: FakeClient, node: str) -> np.ndarray:
     return client.world_position(node)
 
 
-def say(client: FakeClient, node: str, phase: str, grabbed: Sequence[float], pointer: Sequence[float]) -> None:
+def say(
+    client: FakeClient, node: str, phase: str, grabbed: Sequence[float], pointer: Sequence[float]
+) -> None:
     """One event of a pull, as a page sends it."""
     client.send(
         "SceneNodeDragMessage",
@@ -115,9 +117,7 @@ def say(client: FakeClient, node: str, phase: str, grabbed: Sequence[float], poi
     )
 
 
-def pull(
-    client: FakeClient, node: str, by: Sequence[float], *, events: int = 8, let_go: bool = True
-) -> None:
+def pull(client: FakeClient, node: str, by: Sequence[float], *, events: int = 8, let_go: bool = True) -> None:
     """Grab a node, pull it by some way [m] in even steps, and let go."""
     at = grip_of(client, node)
     say(client, node, "start", at, at)

@@ -37,7 +37,8 @@ def library(tmp_path_factory: pytest.TempPathFactory) -> str:
 
 @pytest.fixture(scope="module")
 def server(library: str) -> Iterator[Server]:
-    with serving(library) as made:
+    with pytest.MonkeyPatch.context() as patch, serving(library) as made:
+        patch.setattr("app.server.MOST_SESSIONS", 1000)  # one a test, and each is kept for a minute
         yield made
 
 
@@ -219,11 +220,13 @@ def test_the_work_is_saved_after_the_gesture(client: FakeClient, library: str, c
     client.wait(saved(library, code))
 
 
-def test_looking_alone_saves_nothing(client: FakeClient, library: str, code: str) -> None:
-    press(client, "Add another start")  # another session's save comes after this one's, if there were one
-    client.wait(lambda c: "/start/1" in c.nodes)
+def test_looking_alone_saves_nothing(tmp_path: Path) -> None:
+    library, code = library_in(tmp_path), "only-looked-0001"
+    with serving(library) as server, tab(server, code) as client:
+        client.press("Pause")
+        client.wait(lambda c: any("Play" in e.props.get("options", ()) for e in c.gui))
 
-    assert Library(library).load("never-touched-0001") is None
+    assert Library(library).load(code) is None
 
 
 def test_a_new_server_on_the_same_library_brings_the_work_back(tmp_path: Path) -> None:
@@ -300,12 +303,12 @@ def test_a_pull_whose_end_is_nowhere_ends_at_its_last_good_place(client: FakeCli
     ("name", "content", "words"),
     [
         ("notes.txt", b"hello", ".csv"),
-        ("nan.csv", b"t,x,y,z\n0,0,0,0\n1,nan,0,0\n2,1,1,1\n", "NaN"),
-        ("empty.csv", b"", "empty"),
-        ("words.csv", b"t,x,y,z\n0,a,b,c\n1,d,e,f\n", "number"),
-        ("one.csv", b"t,x,y,z\n0,0,0,0\n", "sample"),
+        ("nan.csv", b"t,x,y,z\n0,0,0,0\n1,nan,0,0\n2,1,1,1\n", "not a finite number"),
+        ("empty.csv", b"", "it is empty"),
+        ("words.csv", b"t,x,y,z\n0,a,b,c\n1,d,e,f\n", "is not a number"),
+        ("one.csv", b"t,x,y,z\n0,0,0,0\n", "one sample"),
         ("same.csv", b"t,x,y,z\n0,1,1,1\n1,1,1,1\n", "same place"),
-        ("junk.npy", b"\x93NUMPY" + bytes(range(64)), "junk.npy"),
+        ("junk.npy", b"\x93NUMPY" + bytes(range(64)), "no NumPy file"),
     ],
 )
 def test_a_bad_file_is_explained_and_the_work_lives_on(
@@ -330,7 +333,7 @@ def test_a_good_file_is_offered_then_added(client: FakeClient) -> None:
     pull(client, "/start/0", BY)  # makes the built-in skill one's own, which the file then joins
     client.wait(lambda c: c.value("Skill") == "My reaching")
     client.upload(UPLOAD, "mine.csv", GOOD)
-    client.wait(lambda c: any("Add" in e.props.get("options", ()) and e.usable for e in c.gui))
+    client.wait(lambda c: c.element("Recording", "Folder").usable)
     assert "/demonstrations/3" not in client.nodes
 
     client.press("Add")
@@ -340,7 +343,7 @@ def test_a_good_file_is_offered_then_added(client: FakeClient) -> None:
 
 def test_a_good_file_beside_a_built_in_skill_opens_as_a_skill_of_its_own(client: FakeClient) -> None:
     client.upload(UPLOAD, "mine.csv", GOOD)
-    client.wait(lambda c: any("Add" in e.props.get("options", ()) and e.usable for e in c.gui))
+    client.wait(lambda c: c.element("Recording", "Folder").usable)
 
     client.press("Add")
 
@@ -355,3 +358,16 @@ def test_an_empty_skill_of_ones_own_can_be_opened_and_undone(client: FakeClient)
     press(client, "Undo:")
 
     client.wait(lambda c: picture(c) == before)
+
+
+def test_a_full_server_says_so_and_goes_on_serving(
+    server: Server, client: FakeClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("app.server.MOST_SESSIONS", 1)
+    with FakeClient(f"ws://127.0.0.1:{server.port}/s/one-too-many-0001") as late:
+        late.wait(lambda c: "people are working here already" in c.text())
+    before = picture(client)
+
+    pull(client, "/start/0", BY)
+
+    wait_for_change(client, before, "/start/0")

@@ -1,0 +1,1 @@
+"""Commands that measure what a decision rests on; run by hand, not by pytest."""
