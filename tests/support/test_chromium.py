@@ -94,7 +94,8 @@ def test_geometry_and_pixels_are_read_back(stage: Stage, open_page: Callable[...
     np.testing.assert_allclose(page.points("/line"), TRIANGLE[:2], atol=1e-6)
     image = page.image()
     x, y = (round(v) for v in page.pixel("/ball"))
-    assert image[y, x, 0] > 2 * image[y, x, 2]
+    red, _, blue = (int(v) for v in image[y, x])
+    assert red - blue > 60  # the light and its reflections change the shade, not the hue
     assert share(image, image[y, x]) > 0.001
 
 
