@@ -1,0 +1,222 @@
+"""The whole work of one drag update, and how soon a tab has the answer.
+
+Goal: a median under 15 ms for servo, learning at 200 stations from five demonstrations, reproduction,
+drawing and messages. One drag sends an event each 50 ms; the hand moves at 0.2 m/s.
+"""
+
+from __future__ import annotations
+
+import queue
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import viser
+from pytest_benchmark.fixture import BenchmarkFixture
+
+from app import files, skills, viewers
+from app.actions import Drag
+from app.arm import Jaco
+from app.desk import Desk
+from app.document import Document, FloatArray, Shown
+from app.resources import static_folder
+from app.viewers import Viewer
+from gc_core import Demonstration
+from tests.panels.desk import Notes
+from tests.support.fake_client import FakeClient
+
+ROOT = Path(__file__).resolve().parents[2]
+EVENT = 0.05
+STEP = 0.01
+"""Between two events [m]."""
+EVENTS = 60
+"""Of one drag: three seconds."""
+GROUP = "one drag update"
+NODES = ("/hand", "/landmarks/goal")
+SAMPLES = (500, 1500)
+
+
+def reaching(n_samples: int) -> Document:
+    """*Reaching* with so many samples in each demonstration."""
+    document = skills.load_skill(static_folder() / "skills", "reaching")
+    shown = tuple(Shown(resampled(one.demonstration, n_samples)) for one in document.demonstrations)
+    return replace(document, demonstrations=shown)
+
+
+def resampled(demonstration: Demonstration, n_samples: int) -> Demonstration:
+    times = np.linspace(0.0, demonstration.times[-1], n_samples)
+    columns = [np.interp(times, demonstration.times, column) for column in demonstration.positions.T]
+    return Demonstration(times, np.column_stack(columns), name=demonstration.name)
+
+
+def way_of(node: str, at: FloatArray, count: int) -> FloatArray:
+    """(count, 3) pointers: the hand along an arc, a landmark around a circle that comes back [m]."""
+    angle = np.linspace(0.0, 2.0 * np.pi, count + 1)[1:]
+    radius = STEP * count / (2.0 * np.pi)
+    circle = radius * np.stack([1.0 - np.cos(angle), 0.0 * angle, np.sin(angle)], axis=1)
+    return at + (circle if node == "/hand" else 0.5 * circle)
+
+
+@dataclass
+class Puller:
+    """A desk, drawn in a connected tab, and a pull that goes on and on."""
+
+    desk: Desk
+    viewer: Viewer
+    node: str
+    now: float = 100.0
+    left: int = 0
+
+    def one_event(self) -> tuple[tuple[Drag], dict[str, object]]:
+        """The next event of the pull; a pull of 60 events is let go, undone, and begun again."""
+        if self.left == 0:
+            self._begin()
+        self.left -= 1
+        self.now += EVENT
+        return (self._event("update", self.way[EVENTS - 1 - self.left]),), {}
+
+    def update(self, drag: Drag) -> None:
+        """What the session does with it."""
+        self.desk.drag(drag)
+        self.viewer.draw(self.desk.state())
+
+    def _begin(self) -> None:
+        self.now += 10.0
+        self.desk.let_go(self.now)
+        while self.desk.store.undo_name is not None:
+            self.desk.undo(self.now)
+        self.desk.tick(self.now + 2.0, 0.04)
+        self.now += 10.0
+        state = self.desk.state()
+        self.viewer.draw(state)
+        goal = next(anchor.now for anchor in state.model.anchors if anchor.name == "goal")
+        self.at = state.hand.position if self.node == "/hand" else goal
+        self.way = way_of(self.node, self.at, EVENTS)
+        self.desk.drag(self._event("start", self.at))
+        self.left = EVENTS
+
+    def _event(self, phase: str, pointer: FloatArray) -> Drag:
+        return Drag(self.node, phase, self.at, pointer, self.now)
+
+
+@pytest.fixture(scope="module")
+def handle() -> Iterator[viser.ClientHandle]:
+    """One tab, connected."""
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    connected: queue.Queue[viser.ClientHandle] = queue.Queue()
+    server.on_client_connect(connected.put)
+    with FakeClient(f"ws://127.0.0.1:{server.get_port()}"):
+        yield connected.get(timeout=10.0)
+    server.stop()
+
+
+@pytest.fixture(scope="module")
+def jaco() -> Iterator[Jaco]:
+    arm = Jaco()
+    yield arm
+    arm.close()
+
+
+@pytest.mark.benchmark(group=GROUP)
+@pytest.mark.parametrize("n_samples", SAMPLES)
+@pytest.mark.parametrize("node", NODES)
+def test_the_servers_work(
+    benchmark: BenchmarkFixture, handle: viser.ClientHandle, jaco: Jaco, node: str, n_samples: int
+) -> None:
+    desk = Desk(reaching(n_samples), jaco)
+    desk.pause()
+    viewer = viewers.working(handle, Notes(), jaco, time.monotonic, [])
+    puller = Puller(desk, viewer, node)
+
+    benchmark.pedantic(puller.update, setup=puller.one_event, rounds=4 * EVENTS, warmup_rounds=10)
+
+    benchmark.extra_info |= summary(benchmark.stats.stats.data)
+    assert desk.state().dragging == node
+
+
+@pytest.fixture(scope="module", params=SAMPLES)
+def address(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """A server in a process of its own, as people run it; its websocket address."""
+    folder = tmp_path_factory.mktemp("served")
+    recordings = folder / f"reaching-{request.param}.npz"
+    files.write(recordings, [shown.demonstration for shown in reaching(request.param).demonstrations])
+    library = f"sqlite:///{folder / 'library.db'}"
+    command = [sys.executable, "-m", "app", "serve", str(recordings), "--port", "0", "--library", library]
+    process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    line = process.stdout.readline()
+    yield line.split()[3].replace("http://", "ws://")
+    process.terminate()
+    process.wait(timeout=20.0)
+
+
+@pytest.mark.benchmark(group="a drag update answered at the tab")
+@pytest.mark.parametrize("node", NODES)
+def test_the_answer_at_the_tab(benchmark: BenchmarkFixture, address: str, node: str) -> None:
+    with FakeClient(f"{address}s/measured-{node.rpartition('/')[2]}") as client:
+        client.wait_nodes("/tube", "/reproductions/0", node)
+        client.press("Pause")
+        client.wait(lambda c: any("Play" in e.props.get("options", ()) for e in c.gui))
+        tab = Tab(client, node)
+
+        benchmark.pedantic(tab.answered, setup=tab.next_event, rounds=EVENTS - 8)
+
+    benchmark.extra_info |= summary(benchmark.stats.stats.data)
+
+
+class Tab:
+    """A person pulling at a browser's pace, who watches the tube."""
+
+    def __init__(self, client: FakeClient, node: str) -> None:
+        self.client, self.node = client, node
+        self.at = client.world_position(node)
+        self.way = iter(way_of(node, self.at, EVENTS))
+        self.owner = client.node(node).owner
+        self.sent = time.perf_counter()
+        self.send("start", self.at)
+        for _ in range(5):  # the first centimetres of the hand change no tube
+            self.send("update", next(self.way))
+            threading.Event().wait(EVENT)
+
+    def next_event(self) -> None:
+        """Wait until it is time for the next event, as a browser does."""
+        threading.Event().wait(max(0.0, self.sent + EVENT - time.perf_counter()))
+        self.pointer = next(self.way)
+        self.before = self.client.node("/tube").props["vertices"]
+        self.sent = time.perf_counter()
+
+    def answered(self) -> None:
+        """Send an event and wait for another tube.
+
+        A pulled hand moves between events, too: its next tube is sometimes that of a tick already under way.
+        """
+        self.send("update", self.pointer)
+        self.client.wait(lambda c: c.node("/tube").props["vertices"] is not self.before)
+
+    def send(self, phase: str, pointer: FloatArray) -> None:
+        """One event of the pull."""
+        self.client.send(
+            "SceneNodeDragMessage",
+            phase=phase,
+            name=self.node,
+            instance_index=None,
+            start_position=tuple(map(float, self.at)),
+            start_screen_pos=(0.5, 0.5),
+            end_position=tuple(map(float, pointer)),
+            end_screen_pos=(0.5, 0.5),
+            button="left",
+            modifier=None,
+            owner=self.owner,
+        )
+
+
+def summary(seconds: list[float]) -> dict[str, float]:
+    """Median and 95th percentile [ms]."""
+    median, p95 = 1000.0 * np.percentile(seconds, [50.0, 95.0])
+    return {"median_ms": round(float(median), 1), "p95_ms": round(float(p95), 1)}
