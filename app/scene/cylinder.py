@@ -7,17 +7,21 @@ import viser
 
 from app.actions import Actions
 from app.document import FloatArray
-from app.scene.geometry import evenly, nearest_to_ray, pick_tube, segments, tube_mesh
+from app.scene.geometry import along, evenly, nearest_to_ray, pick_tube, segments, tube_mesh
 from app.scene.nodes import Line, Mesh
 from app.scene.playhead import station_at, time_of
 from app.scene.pulls import checked_point
-from app.scene.style import DIRECTRIX, PICK_RADIUS, SECTION, THICK, TUBE, TUBE_OPACITY
+from app.scene.style import DIRECTRIX, SECTION, THICK, TUBE, TUBE_OPACITY
 from app.store import State
 from gc_core import GeneralizedCylinder
 
 AT_REST: Final = (100, 32)
 """Stations and angles of the drawn tube."""
 WHILE_DRAGGING: Final = (60, 24)
+CLICK_RADIUS: Final = 0.005
+"""Of what can be clicked along the directrix [m]; thin, for it swallows pulls on lines behind it."""
+CLEAR_ENDS: Final = 0.04
+"""Nothing to click this near to the ends of the directrix, where start and goal are pulled [m]."""
 DOT_SIZE: Final = 0.008
 
 
@@ -83,7 +87,9 @@ class Directrix:
     def _draw_pick(self, cylinder: GeneralizedCylinder) -> None:
         """Invisible; waits for the release of what is dragged."""
         self._picked = cylinder
-        handle = self._pick.show(*pick_tube(cylinder.directrix, PICK_RADIUS))
+        length = float(cylinder.arc_length[-1])
+        inner = along(cylinder.directrix, np.linspace(CLEAR_ENDS, max(length - CLEAR_ENDS, CLEAR_ENDS), 100))
+        handle = self._pick.show(*pick_tube(inner, CLICK_RADIUS))
         if not self._bound:
             handle.on_click(self._on_click)
             self._bound = True
@@ -95,7 +101,7 @@ class Directrix:
             return
         if not np.any(direction):
             return
-        station = nearest_to_ray(state.model.cylinder.directrix, origin, direction, 1.5 * PICK_RADIUS)
+        station = nearest_to_ray(state.model.cylinder.directrix, origin, direction, 2.0 * CLICK_RADIUS)
         time = time_of(state.model, state.playback.run, station)
         if time is not None:
             self._actions.seek(time)
