@@ -38,16 +38,19 @@ def serve(
     """
     # Only this command needs viser, placo and the database, which take a second to import.
     from app.library import default_url  # noqa: PLC0415
-    from app.server import Options, Server, first_document  # noqa: PLC0415
+    from app.server import Options, Server, first_document, stop_signal  # noqa: PLC0415
 
-    logging.basicConfig(level=logging.INFO, format="%(message)s")
+    logging.basicConfig(level=logging.WARNING, format="%(message)s")
+    logging.getLogger("app").setLevel(logging.INFO)
+    stop = stop_signal()  # first, so that a signal while starting stops cleanly, too
     first = first_document(files)
     server = Server(Options(host, port, library or default_url()), first)
     address = f"http://{'127.0.0.1' if host == '0.0.0.0' else host}:{server.port}/"
     print(f"gc-teach is ready: {address}   (Ctrl+C saves and stops)", flush=True)
     if open:
         webbrowser.open(address)
-    server.wait()
+    stop.wait()
+    server.close()
 
 
 cli.command(commands.encode)

@@ -33,6 +33,8 @@ class Drag:
     """Session time of arrival [s]."""
     vertical: bool = False
     """Shift is held: only the height changes."""
+    eye: FloatArray | None = None
+    """(3,) the camera [m], where it is known."""
     aside: bool = False
     """Pulled with the right button: moves the hand without recording."""
 

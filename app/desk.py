@@ -25,6 +25,8 @@ SLIP: Final = 0.001
 """A pull shorter than this was a slip of the hand and changes nothing [m]."""
 SHORTEST: Final = 0.03
 """A demonstration shorter than this was a slip of the hand [m]."""
+GLIDE: Final = 0.7
+"""In a loop the arm goes back to the start in what is left of the rest after this part of it."""
 
 
 class Desk:
@@ -236,8 +238,7 @@ class Desk:
             self._refresh()
             self._driver.lead()
         held = Grasp(pull, gesture.begin(drag), self.model)
-        if isinstance(pull, HandPull):
-            pull.aim(drag.time, held.track.displacement)
+        held.aim(drag)
         return held
 
     def let_go(self, now: float) -> None:
@@ -273,7 +274,7 @@ class Desk:
         self.let_go(now)
         self.playback = replace(self.playback, playing=False)
         pull = HandPull(self._arm, self._driver.hand, now, records=False)
-        pull.aim(now, edits.point(position) - pull.begins_at.position)
+        pull.aim(now, edits.point(position))
         self._let_hand_go(pull, now)
 
     # --- time --------------------------------------------------------------------------
@@ -305,5 +306,5 @@ class Desk:
             return None
         fits = self.plan is not None and self.plan.source is self.model and self.plan.run == playback.run
         path = self.plan.path if self.plan is not None and fits else None
-        time = 0.0 if playback.time > playback.duration + 0.5 * player.REST else playback.time
+        time = 0.0 if playback.time > playback.duration + GLIDE * player.REST else playback.time
         return lead_at(time, runs[playback.run].reproduction, path)

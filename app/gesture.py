@@ -6,7 +6,7 @@ applied to the document it began with and shown, but never stored; letting go co
 it as one undo step. Pulling the hand is the one pull that takes time: see `app.handpull`.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -20,6 +20,8 @@ from gc_core import Constraint, Demonstration, Reproduction, soft_correction
 
 GRACE: Final = 0.15
 """A pull that ends and begins again on the same thing within this time is one [s]."""
+MAGNET: Final = 0.08
+"""A place attracts the depth of what passes it nearer than this, as seen by the camera [m]."""
 TABLE: Final = 0.0
 """Height of the table top [m]."""
 
@@ -53,6 +55,37 @@ def follow(track: Track, drag: Drag) -> Track:
     if drag.vertical:
         moved = np.array([0.0, 0.0, moved[2]])
     return replace(track, displacement=track.before + moved)
+
+
+def drawn_to(places: Sequence[FloatArray], target: FloatArray, eye: FloatArray) -> FloatArray:
+    """Draw a pulled point towards a place that it passes in front of or behind.
+
+    A flat pointer says nothing about depth. The point stays under the pointer: it moves only along
+    the line of sight, towards the depth of the place that this line comes nearest to.
+
+    Parameters
+    ----------
+    places : sequence of (3,) arrays
+        What attracts [m].
+    target, eye : (3,) array
+        The pulled point and the camera [m].
+
+    Returns
+    -------
+    (3,) array
+        On the line of sight [m]; the target itself where no place is within `MAGNET` of that line,
+        exactly as deep as the place where the line passes within half of it.
+    """
+    sight = target - eye
+    depth = float(np.linalg.norm(sight))
+    if depth == 0.0 or not places:
+        return target
+    sight = sight / depth
+    depths = [float((place - eye) @ sight) for place in places]
+    gaps = [float(np.linalg.norm(place - eye - d * sight)) for place, d in zip(places, depths, strict=True)]
+    nearest = int(np.argmin(gaps))
+    pull = float(np.clip(2.0 - 2.0 * gaps[nearest] / MAGNET, 0.0, 1.0))
+    return target + pull * pull * (3.0 - 2.0 * pull) * (depths[nearest] - depth) * sight
 
 
 @dataclass(frozen=True, eq=False)

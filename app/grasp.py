@@ -48,8 +48,17 @@ class Grasp:
         """Take one more event into account."""
         self.track = gesture.follow(self.track, drag)
         self.ends = drag.time + gesture.GRACE if drag.phase == "end" else None
-        if isinstance(self.pull, HandPull):
-            self.pull.aim(drag.time, self.track.displacement)
+        self.aim(drag)
+
+    def aim(self, drag: Drag) -> None:
+        """Lead the hand, if that is what is held; the depth of a goal under the pointer attracts it."""
+        if not isinstance(self.pull, HandPull):
+            return
+        target = self.pull.begins_at.position + self.track.displacement
+        if drag.eye is not None and not drag.vertical:
+            goals = [anchor.now for anchor in self.before.anchors if anchor.name != "start"]
+            target = gesture.drawn_to(goals, target, drag.eye)
+        self.pull.aim(drag.time, target)
 
     def shown(self, document: Document) -> Document:
         """Give the document as it would be if this were let go now; the same object while nothing changed."""

@@ -57,9 +57,9 @@ class HandPull:
         self._drawn = Drawn(np.zeros(1), hand.position[None], np.full(1, hand.gripper))
         self._station = 0
 
-    def aim(self, time: float, displacement: FloatArray) -> None:
-        """The pointer wants the hand this far from where it was grabbed [m]."""
-        event = np.concatenate([[time], self.begins_at.position + displacement])
+    def aim(self, time: float, target: FloatArray) -> None:
+        """The pointer wants the hand at a place [m]."""
+        event = np.concatenate([[time], target])
         self._servo = replace(self._servo, pending=np.vstack([self._servo.pending, event]))
 
     def set_gripper(self, gripper: float) -> None:

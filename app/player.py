@@ -7,7 +7,7 @@ from app.store import Playback
 
 SPEEDS: Final = (0.25, 0.5, 1.0, 2.0)
 """Playback speeds that are offered."""
-REST: Final = 1.0
+REST: Final = 2.0
 """A loop rests at its end this long before it begins again [s]."""
 
 

@@ -105,14 +105,6 @@ class Server:
         self._workshop.workers.shutdown(wait=True, cancel_futures=True)
         self._workshop.library.close()
 
-    def wait(self) -> None:
-        """Serve until SIGTERM or SIGINT comes, then close."""
-        stop = threading.Event()
-        for number in (signal.SIGTERM, signal.SIGINT):
-            signal.signal(number, lambda _number, _frame: stop.set())
-        stop.wait()
-        self.close()
-
     def _health(self) -> dict[str, object]:
         return {"ok": not self._closed.is_set(), "sessions": len(self._sessions)}
 
@@ -168,6 +160,14 @@ class Server:
                 forgotten = [self._sessions.pop(code) for code in gone]
                 for session in forgotten:  # saved before anybody may open it again
                     session.close()
+
+
+def stop_signal() -> threading.Event:
+    """Catch SIGTERM and SIGINT from now on; the event is set when one has come."""
+    stop = threading.Event()
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda _number, _frame: stop.set())
+    return stop
 
 
 class TooManySessionsError(GcError):

@@ -146,4 +146,5 @@ class _Pull:
             time=now,
             vertical=event.modifier == "shift",
             aside=event.button == "right",
+            eye=camera,
         )
