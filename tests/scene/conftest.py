@@ -7,6 +7,7 @@ import threading
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -109,6 +110,7 @@ class Stage:
     scene: Scene
     actions: Recorder
     now: float = 7.0
+    mark: float = 0.0
 
     def draw(self, shown: State) -> None:
         """Draw, and wait until the tab has it."""
@@ -117,8 +119,15 @@ class Stage:
         self.settle()
 
     def settle(self) -> None:
+        """A mark sent after everything else: once it is there, so is all the rest."""
+        self.mark += 1.0
+        self.handle.scene.add_frame("/mark", show_axes=False, position=(self.mark, 0.0, 0.0))
         self.handle.flush()
-        self.client.wait_quiet(0.1)
+        self.client.wait(lambda c: c.node("/mark").position[0] == self.mark)
+
+    def sent(self) -> list[dict[str, Any]]:
+        """Messages about the scene since the log was cleared, without those of the mark."""
+        return [m for m in self.client.log if m.get("name") not in (None, "/mark")]
 
 
 @pytest.fixture
