@@ -25,6 +25,8 @@ SLIP: Final = 0.001
 """A pull shorter than this was a slip of the hand and changes nothing [m]."""
 SHORTEST: Final = 0.03
 """A demonstration shorter than this was a slip of the hand [m]."""
+PATIENCE: Final = 0.08
+"""A pulled hand moves with the events of the pull; after a longer silence it moves on by itself [s]."""
 GLIDE: Final = 0.7
 """In a loop the arm goes back to the start in what is left of the rest after this part of it."""
 
@@ -76,7 +78,7 @@ class Desk:
         if self._held is not None:
             document = self._held.shown(document)
         if self.model.source is not document:
-            self.model = learn(document, self.model)
+            self.model = learn(document, self.model, coarse=self._held is not None)
             self._refresh()
         return document
 
@@ -237,7 +239,7 @@ class Desk:
             self.playback = replace(self.playback, playing=False, time=0.0, run=run)
             self._refresh()
             self._driver.lead()
-        held = Grasp(pull, gesture.begin(drag), self.model)
+        held = Grasp(pull, gesture.begin(drag), self.model, drag.time)
         held.aim(drag)
         return held
 
@@ -292,7 +294,7 @@ class Desk:
             self.let_go(now)
             held = None
         if held is not None and isinstance(held.pull, HandPull):
-            if held.ends is None:
+            if held.ends is None and now - held.followed > PATIENCE:
                 self._driver.pulled(held.pull.advance(now))
             return True
         self.playback = player.advance(self.playback, dt, speed=self.view.speed, loop=self.view.loop)

@@ -21,6 +21,8 @@ class Grasp:
     track: Track
     before: Model
     """What was shown when it was grabbed."""
+    followed: float
+    """When the last event arrived [s]."""
     ends: float | None = None
     """The button was let go, and at this time the pull is over [s]."""
     problem: str = ""
@@ -48,6 +50,7 @@ class Grasp:
         """Take one more event into account."""
         self.track = gesture.follow(self.track, drag)
         self.ends = drag.time + gesture.GRACE if drag.phase == "end" else None
+        self.followed = drag.time
         self.aim(drag)
 
     def aim(self, drag: Drag) -> None:

@@ -27,6 +27,10 @@ from gc_core import (
     reproduce,
 )
 
+ANGLES: Final = 64
+"""Corners of a cross-section."""
+COARSE_ANGLES: Final = 32
+"""Corners of a cross-section while something is dragged; more are not drawn then."""
 DEFAULT_RATIO: Final = 0.5
 """Without a start of one's own, the first reproduction begins this far off-centre."""
 
@@ -73,6 +77,8 @@ class Model:
     constraints: tuple[Constraint, ...] = ()
     """The rules that are on."""
     runs: tuple[Run, ...] = ()
+    coarse: bool = False
+    """Encoded for a preview, with `COARSE_ANGLES`."""
     problem: str | None = None
     """Why there is no cylinder although something was shown."""
 
@@ -85,7 +91,7 @@ class Model:
         return np.zeros(3)
 
 
-def learn(document: Document, previous: Model | None = None) -> Model:
+def learn(document: Document, previous: Model | None = None, *, coarse: bool = False) -> Model:
     """Compute a document's model, reusing what the previous one has already.
 
     Parameters
@@ -94,6 +100,8 @@ def learn(document: Document, previous: Model | None = None) -> Model:
         What was shown, moved and corrected.
     previous : Model, optional
         Any earlier model; its stages are reused where their inputs are the same objects.
+    coarse : bool
+        What has to be encoded is only a preview.
 
     Returns
     -------
@@ -104,13 +112,14 @@ def learn(document: Document, previous: Model | None = None) -> Model:
     if former.source is document:
         return former
     demonstrations = tuple(s.demonstration for s in document.demonstrations if not s.muted)
-    model = Model(document, demonstrations)
+    model = Model(document, demonstrations, coarse=coarse)
     try:
         model = _encode(model, former)
+        model = replace(model, anchors=_anchors(model))
         model = _generalize(model, former)
         return _reproduce(model, former)
     except GcError as error:
-        return replace(model, taught=None, cylinder=None, runs=(), problem=str(error))
+        return replace(model, problem=str(error))
 
 
 def _encode(model: Model, former: Model) -> Model:
@@ -118,35 +127,39 @@ def _encode(model: Model, former: Model) -> Model:
     if not model.demonstrations:
         return model
     unchanged = _same(model.demonstrations, former.demonstrations) and settings == former.source.settings
-    if unchanged and former.taught is not None:
-        return replace(model, taught=former.taught)
-    return replace(model, taught=encode_as(model.demonstrations, settings))
+    if unchanged and former.taught is not None and (model.coarse or not former.coarse):
+        return replace(model, taught=former.taught, coarse=former.coarse)
+    angles = COARSE_ANGLES if model.coarse else ANGLES
+    return replace(model, taught=encode_as(model.demonstrations, settings, angles))
 
 
-def encode_as(demonstrations: tuple[Demonstration, ...], settings: Settings) -> GeneralizedCylinder:
+def encode_as(
+    demonstrations: tuple[Demonstration, ...], settings: Settings, angles: int = ANGLES
+) -> GeneralizedCylinder:
     """Encode demonstrations by a document's settings."""
     return encode(
         demonstrations,
         section=settings.section,
         stations=settings.stations,
+        angles=angles,
         align_by=settings.align_by,
     )
 
 
 def _generalize(model: Model, former: Model) -> Model:
-    anchors = _anchors(model)
-    if model.taught is former.taught and _same_anchors(anchors, former.anchors):
+    anchors = model.anchors
+    if model.taught is former.taught and _same_anchors(anchors, former.anchors) and not former.problem:
         return replace(
             model, anchors=former.anchors, registration=former.registration, cylinder=former.cylinder
         )
     if model.taught is None or all(anchor.now is anchor.taught for anchor in anchors):
-        return replace(model, anchors=anchors, cylinder=model.taught)
+        return replace(model, cylinder=model.taught)
     registration = register(
         [Landmark(anchor.taught, name=anchor.name) for anchor in anchors],
         [Landmark(anchor.now, name=anchor.name) for anchor in anchors],
     )
     cylinder = generalize(model.taught, registration)
-    return replace(model, anchors=anchors, registration=registration, cylinder=cylinder)
+    return replace(model, registration=registration, cylinder=cylinder)
 
 
 def _anchors(model: Model) -> tuple[Anchor, ...]:

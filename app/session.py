@@ -6,6 +6,7 @@ session, so that a reload finds it again.
 """
 
 import logging
+import threading
 import time
 from collections.abc import Callable, Sequence, Set
 from concurrent.futures import Executor
@@ -17,12 +18,12 @@ import viser
 
 from app import viewers
 from app.actions import ViewName
-from app.actor import Actor, Latest
+from app.actor import TICK, Actor, Latest
 from app.arm.protocol import Arm
 from app.desk import Desk
 from app.document import Document
 from app.files import inspect_bytes
-from app.library import Library
+from app.library import Library, LibraryError
 from app.scene import VIEWS
 from app.seat import Seat
 from app.store import Plan, State
@@ -31,6 +32,10 @@ from gc_core import GcError
 
 FORGOTTEN_AFTER: Final = 60.0
 """A session without a tab is closed after this time [s]."""
+LONGEST_TICK: Final = 0.2
+"""After a longer time nothing was moving, and the clock starts anew [s]."""
+SAVE_AGAIN: Final = 5.0
+"""A save that failed is tried again after this time [s]."""
 IDLE_AFTER: Final = 180.0
 """Playback stops when nobody has done anything for this time [s]."""
 
@@ -62,7 +67,8 @@ class Session:
         self._viewers: dict[int, Viewer] = {}
         self._works: int | None = None
         self._planned: tuple[object, int] | None = None
-        self._time = self._touched = self.clock()
+        self._time = self._touched = self._save_after = self.clock()
+        self._writing = threading.Lock()
         self._actor = Actor(tick=self._tick, draw=self._draw, report=self._report, name=f"session-{code}")
         self._plans = Latest(workshop.workers, self._actor)
         self._saves = Latest(workshop.workers, self._actor)
@@ -190,7 +196,7 @@ class Session:
             return False
         if now - self._touched > IDLE_AFTER:
             self._desk.pause()
-        return self._desk.tick(now, min(dt, 0.2))
+        return self._desk.tick(now, dt if dt < LONGEST_TICK else TICK)
 
     def _draw(self) -> None:
         state = self._desk.state()
@@ -218,21 +224,34 @@ class Session:
 
     def _save(self) -> None:
         document = self._desk.store.document
-        if document is self._desk.saving:
+        if document is self._desk.saving or self.clock() < self._save_after:
             return
         self._desk.saving = document
+        self._saves.submit(lambda: self._write(document), lambda error: self._saved(document, error))
 
-        def done(_: None) -> None:
-            self._desk.saved = document
+    def _write(self, document: Document) -> LibraryError | None:
+        """Save, in whichever thread, unless a newer document was saved meanwhile."""
+        with self._writing:
+            if document is self._desk.saving:
+                try:
+                    self._workshop.library.save(self.code, document)
+                except LibraryError as error:
+                    return error
+            return None
 
-        self._saves.submit(lambda: self._workshop.library.save(self.code, document), done)
+    def _saved(self, document: Document, error: LibraryError | None) -> None:
+        if error is None:
+            self._desk.saved = document if document is self._desk.saving else self._desk.saved
+            return
+        self._desk.saving = self._desk.saved
+        self._save_after = self.clock() + SAVE_AGAIN
+        raise error
 
     def _save_now(self) -> None:
         self._desk.let_go(self.clock())
-        document = self._desk.store.document
-        if document is not self._desk.saved:
-            self._workshop.library.save(self.code, document)
-            self._desk.saved = document
+        if self._desk.store.document is not self._desk.saved:
+            document = self._desk.saving = self._desk.store.document
+            self._saved(document, self._write(document))
 
     def _report(self, error: Exception) -> None:
         if isinstance(error, GcError):

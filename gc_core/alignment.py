@@ -8,6 +8,7 @@ of stations and `times` keeps the taught speed.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -68,7 +69,7 @@ def align(
     if align_by not in ALIGNMENTS:
         raise UnknownOptionError("align_by", align_by, ALIGNMENTS)
     grid = np.linspace(0.0, 1.0, 4 * stations + 1)
-    clocks = [_clock(demonstration, align_by, grid) for demonstration in demonstrations]
+    clocks = [_clock(demonstration, align_by, len(grid)) for demonstration in demonstrations]
     if directrix is None:
         mean = np.mean([_at(d, moments) for d, moments in zip(demonstrations, clocks, strict=True)], axis=0)
     else:
@@ -142,8 +143,10 @@ def majority_gripper(
     return np.where(share[latest] > 0.5, high, low)
 
 
-def _clock(demonstration: Trimmed, align_by: str, grid: FloatArray) -> FloatArray:
-    """Moments [s] of a demonstration at the common parameters."""
+@lru_cache(maxsize=256)
+def _clock(demonstration: Trimmed, align_by: str, count: int) -> FloatArray:
+    """Moments (count,) [s] of a demonstration at evenly spaced common parameters; remembered like `trim`."""
+    grid = np.linspace(0.0, 1.0, count)
     if align_by == "time":
         return grid * demonstration.times[-1]
     # A sensor's noise must not count as path while the hand pauses.

@@ -9,7 +9,7 @@ from gc_core.arrays import BoolArray, FloatArray, IntArray
 from gc_core.demonstration import Trimmed
 from gc_core.frames import arc_length
 
-KNOTS = 300
+KNOTS = 150
 """A demonstration is searched at this many of its samples, then refined on its polyline."""
 
 SEARCH = 0.2

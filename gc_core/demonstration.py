@@ -6,6 +6,7 @@ Trimming makes a `Trimmed` for computing; the demonstration itself stays as it w
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -86,12 +87,14 @@ class Trimmed:
     """Samples that repeat the place of the sample before, within what was kept."""
 
 
+@lru_cache(maxsize=256)
 def trim(demonstration: Demonstration, threshold: float = STATIONARY_SPEED) -> Trimmed:
     """Cut the ends in which the tool stands still.
 
     The speed at a sample is taken over one hundredth of the samples to either side,
     so that a sensor's noise is not taken for motion. The first and the last place are
-    kept: they are joined to the motion at the threshold speed.
+    kept: they are joined to the motion at the threshold speed. The result is remembered:
+    while one demonstration is being corrected, the others are trimmed already.
 
     Parameters
     ----------

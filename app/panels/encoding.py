@@ -48,7 +48,7 @@ class EncodingPanel:
             assign(button, color=STRONG if kind == chosen else QUIET)
         for binding in self._bindings:
             binding.draw(state)
-        if self._changed(state.model):
+        if state.dragging is None and self._changed(state.model):
             assign(self._facts, content=words.note(words.escape(facts(state.model))))
 
 

@@ -91,7 +91,7 @@ class StartRow:
     def _move(self, position: FloatArray) -> None:
         if self._state is not None:
             # A start is kept where it was taught; the start landmark may have carried it along since.
-            place = position - self._state.model.start_shift if self._state.document.starts else position
+            place = position - self._state.model.start_shift
             change = partial(edits.move_start, index=self._index, position=place)
             self._actions.edit(change, "move start", f"move start {self._index}")
 
@@ -125,8 +125,8 @@ def where(state: State) -> str:
 
 
 def _starts(model: Model) -> tuple[FloatArray, ...]:
-    """The document's starts, or the one that every skill has."""
-    return model.source.starts or tuple(run.start for run in model.runs)
+    """The document's starts, or the one that every skill has; kept where they were taught."""
+    return model.source.starts or tuple(run.start - model.start_shift for run in model.runs)
 
 
 def _added(document: Document, starts: Sequence[FloatArray], another: FloatArray) -> Document:
