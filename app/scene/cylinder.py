@@ -7,9 +7,10 @@ import viser
 
 from app.actions import Actions
 from app.document import FloatArray
-from app.scene.geometry import along, evenly, nearest_to_ray, pick_tube, segments, tube_mesh
+from app.scene.geometry import pick_tube, tube_mesh
 from app.scene.nodes import Line, Mesh
 from app.scene.playhead import station_at, time_of
+from app.scene.polyline import along, evenly, nearest_to_ray, segments
 from app.scene.pulls import checked_point
 from app.scene.style import DIRECTRIX, SECTION, THICK, TUBE, TUBE_OPACITY
 from app.store import State

@@ -7,8 +7,9 @@ import viser
 
 from app.actions import Actions
 from app.document import Shown
-from app.scene.geometry import dashes, pick_tube, segments, thin_out
+from app.scene.geometry import pick_tube
 from app.scene.nodes import Line, Mesh
+from app.scene.polyline import dashes, segments, thin_out
 from app.scene.pulls import bind_pull
 from app.scene.style import DEMONSTRATION, MUTED, PICK_RADIUS, THIN
 from app.store import State

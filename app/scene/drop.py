@@ -6,8 +6,9 @@ import numpy as np
 import viser
 
 from app.document import FloatArray
-from app.scene.geometry import dashes, disc
+from app.scene.geometry import disc
 from app.scene.nodes import Label, Line, Mesh
+from app.scene.polyline import dashes
 from app.scene.style import GUIDE, SHADOW
 from app.store import State
 

@@ -8,9 +8,10 @@ import viser
 
 from app.actions import Actions
 from app.document import FloatArray
-from app.scene.geometry import circle, dashes, segments, thin_out
+from app.scene.geometry import circle
 from app.scene.grip import Grip
 from app.scene.nodes import Ball, Label, Line
+from app.scene.polyline import dashes, segments, thin_out
 from app.scene.pulls import bind_pull
 from app.scene.style import (
     DEMONSTRATION,

@@ -12,9 +12,10 @@ import viser
 
 from app.actions import Actions
 from app.model import Anchor
-from app.scene.geometry import dashes, stem, torus
+from app.scene.geometry import stem, torus
 from app.scene.grip import Grip
 from app.scene.nodes import Ball, Line, Mesh
+from app.scene.polyline import dashes
 from app.scene.pulls import bind_pull
 from app.scene.style import GHOST_RADIUS, LANDMARK, LANDMARK_GHOST, LANDMARK_GRIP, LANDMARK_RADIUS
 from app.scene.view import Eye

@@ -12,9 +12,10 @@ import viser
 from app.actions import Actions
 from app.document import FloatArray
 from app.model import Run
-from app.scene.geometry import arrowheads, dashes, pick_tube, segments
+from app.scene.geometry import arrowheads, pick_tube
 from app.scene.grip import Grip
 from app.scene.nodes import Ball, Line, Mesh
+from app.scene.polyline import dashes, segments
 from app.scene.pulls import bind_pull
 from app.scene.style import (
     DOUBLE,

@@ -10,6 +10,7 @@ from hypothesis.extra.numpy import arrays
 
 from app.document import FloatArray
 from app.scene import geometry as g
+from app.scene import polyline as p
 
 LINES = st.integers(2, 30).flatmap(
     lambda n: arrays(np.float64, (n, 3), elements=st.floats(-1.0, 1.0, width=32))
@@ -126,15 +127,15 @@ def test_a_pick_tube_surrounds_the_line() -> None:
 
 @given(points=LINES)
 def test_places_along_a_line_keep_their_order_and_its_ends(points: FloatArray) -> None:
-    length = g.arc_length(points)
-    found = g.along(points, length)
+    length = p.arc_length(points)
+    found = p.along(points, length)
 
     np.testing.assert_allclose(found, points, atol=1e-6)
 
 
 def test_dashes_lie_on_the_line_and_cover_their_share_of_it() -> None:
     points = np.array([[0.0, 0.0, 0.0], [0.5, 0.0, 0.0], [1.0, 0.0, 0.0]])
-    found = g.dashes(points, dash=0.03, gap=0.02)
+    found = p.dashes(points, dash=0.03, gap=0.02)
     covered = np.linalg.norm(found[:, 1] - found[:, 0], axis=1)
 
     np.testing.assert_array_equal(found[..., 1:], 0.0)
@@ -143,13 +144,13 @@ def test_dashes_lie_on_the_line_and_cover_their_share_of_it() -> None:
 
 
 def test_a_line_without_length_has_no_dashes() -> None:
-    assert g.dashes(np.ones((4, 3))).shape == (0, 2, 3)
+    assert p.dashes(np.ones((4, 3))).shape == (0, 2, 3)
 
 
 @given(n=st.integers(1, 500), most=st.integers(2, 100))
 def test_thinning_out_keeps_both_ends_and_only_given_points(n: int, most: int) -> None:
     points = np.arange(3.0 * n).reshape(n, 3)
-    kept = g.thin_out(points, most)
+    kept = p.thin_out(points, most)
 
     assert len(kept) == min(n, most)
     assert len(np.unique(kept[:, 0])) == len(kept)
@@ -192,7 +193,7 @@ def test_arrowheads_look_outward() -> None:
 def test_a_ray_through_a_point_of_a_line_finds_its_neighbourhood(index: int) -> None:
     points = curve()
     origin = np.array([0.9, -1.4, 0.9])
-    found = g.nearest_to_ray(points, origin, points[index] - origin, 0.015)
+    found = p.nearest_to_ray(points, origin, points[index] - origin, 0.015)
 
     assert np.linalg.norm(points[found] - points[index]) < 0.03
 
@@ -200,4 +201,4 @@ def test_a_ray_through_a_point_of_a_line_finds_its_neighbourhood(index: int) -> 
 def test_of_two_stretches_under_a_ray_the_one_in_front_is_meant() -> None:
     points = np.array([[0.0, 1.0, 0.0], [0.5, 1.5, 0.0], [0.0, 2.0, 0.0]])
 
-    assert g.nearest_to_ray(points[::-1], np.zeros(3), np.array([0.0, 1.0, 0.0]), 0.01) == 2
+    assert p.nearest_to_ray(points[::-1], np.zeros(3), np.array([0.0, 1.0, 0.0]), 0.01) == 2
