@@ -220,6 +220,7 @@ def _response(reply: Reply, request: Request) -> Response:
 def _quiet_logger() -> logging.Logger:
     """What strangers send is their fault: one line for it, no traceback."""
     logger = logging.getLogger(f"{__name__}.connections")
+    logger.setLevel(logging.WARNING)
     if not logger.filters:
         logger.addFilter(_without_traceback)
     return logger
