@@ -7,17 +7,20 @@
 from __future__ import annotations
 
 import io
+import math
 from typing import Any, Final, cast
 
 import h5py  # pyright: ignore[reportMissingTypeStubs]  # it has none
 import numpy as np
 
 from app.document import FloatArray
-from app.files.errors import FileError, UnreadableError
+from app.files.errors import FileError, TooLargeError, UnreadableError
 from app.files.recording import Contents, Recording, check_count, check_length
 
 POSES: Final = "tf_info/pos_rot_data"
 TIMES: Final = "time_info/time_data"
+LARGEST_CHUNK: Final = 64 * 2**20
+"""What one packed piece of an array may unpack to [bytes]; HDF5 unpacks whole pieces."""
 _h5: Any = cast("Any", h5py)
 _REMEDY: Final = "Export the recording as CSV: t,x,y,z."
 
@@ -42,9 +45,7 @@ def parse_hdf5(name: str, content: bytes) -> Contents:
 
 def _recordings(name: str, file: Any) -> tuple[Recording, ...]:
     keys: list[str] = list(file)
-    # A link may lead into another file of this machine.
-    own = [key for key in keys if isinstance(file.get(key, getlink=True), _h5.HardLink)]
-    groups = [key for key in own if isinstance(file[key], _h5.Group) and POSES in file[key]]
+    groups = [key for key in keys if _within(file, f"{key}/{POSES}")]
     if not groups:
         raise UnreadableError(name, f"no group of it holds {POSES}", _REMEDY)
     check_count(name, len(groups))
@@ -55,7 +56,7 @@ def _recording(name: str, key: str, group: Any, *, single: bool) -> Recording:
     n = _columns(name, group, f"{key}/{POSES}", POSES, rows=7)
     poses: FloatArray = np.array(group[POSES], dtype=np.float64).T
     times: FloatArray | None = None
-    if TIMES in group:
+    if _within(group, TIMES):
         if _columns(name, group, f"{key}/{TIMES}", TIMES, rows=2) != n:
             raise UnreadableError(name, f"{key} has not as many times as positions", _REMEDY)
         clock = np.array(group[TIMES], dtype=np.float64)
@@ -69,14 +70,28 @@ def _recording(name: str, key: str, group: Any, *, single: bool) -> Recording:
     )
 
 
+def _within(group: Any, path: str) -> bool:
+    """Whether a path stays in this very file: a link may lead into another one of this machine."""
+    for part in path.split("/"):
+        if not isinstance(group, _h5.Group) or not isinstance(group.get(part, getlink=True), _h5.HardLink):
+            return False
+        group = group[part]
+    return True
+
+
 def _columns(name: str, group: Any, path: str, key: str, rows: int) -> int:
     """Check a data set's shape before any of it is read; say how many samples it has."""
     data = group[key]
     table = isinstance(data, _h5.Dataset) and data.ndim == 2 and data.dtype.kind in "fiu"
     if not table or data.shape[0] != rows:
         raise UnreadableError(name, f"{path} is not an array of {rows} rows of numbers", _REMEDY)
+    if data.external or data.is_virtual:
+        raise UnreadableError(name, f"the numbers of {path} lie in another file", _REMEDY)
     n = int(data.shape[1])
     check_length(name, n)
+    unpacked = data.dtype.itemsize * math.prod(data.chunks or ())
+    if unpacked > LARGEST_CHUNK:
+        raise TooLargeError(name, "unpacks to", unpacked, LARGEST_CHUNK, unit="bytes")
     if n == 0:
         raise UnreadableError(name, f"{path} is empty", _REMEDY)
     return n

@@ -7,6 +7,7 @@ import struct
 import zlib
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -240,7 +241,6 @@ def test_too_many_samples_or_demonstrations_are_refused(name: str, content: byte
 
 
 def test_an_hdf5_file_that_announces_too_much_is_refused_without_reading_it() -> None:
-    h5py = pytest.importorskip("h5py")
     out = io.BytesIO()
     with h5py.File(out, "w") as file:  # chunked and never written: takes no room
         file.create_dataset(
@@ -252,12 +252,50 @@ def test_an_hdf5_file_that_announces_too_much_is_refused_without_reading_it() ->
 
 
 def test_an_hdf5_link_into_another_file_is_not_followed() -> None:
-    h5py = pytest.importorskip("h5py")
     out = io.BytesIO()
     with h5py.File(out, "w") as file:
         file["demo1"] = h5py.ExternalLink("other.h5", "/demo1")
 
     with pytest.raises(UnreadableError, match="no group"):
+        inspect_bytes("a.h5", out.getvalue())
+
+
+def test_numbers_that_an_hdf5_file_keeps_in_another_file_are_not_read(tmp_path: Path) -> None:
+    secret = tmp_path / "secret.txt"
+    secret.write_bytes(bytes(range(140)))
+    out = io.BytesIO()
+    with h5py.File(out, "w") as file:
+        group = file.create_group("demo1/tf_info")
+        group.create_dataset("pos_rot_data", (7, 20), "u1", external=[(str(secret), 0, 140)])
+
+    with pytest.raises(UnreadableError, match="in another file"):
+        inspect_bytes("a.h5", out.getvalue())
+
+
+def test_a_deep_hdf5_link_into_another_file_is_not_followed(tmp_path: Path) -> None:
+    other = tmp_path / "other.h5"
+    other.write_bytes(GOOD["a.h5"])
+    out = io.BytesIO()
+    with h5py.File(out, "w") as file:
+        file.create_group("demo1")["tf_info"] = h5py.ExternalLink(str(other), "/demo1/tf_info")
+
+    with pytest.raises(UnreadableError, match="no group"):
+        inspect_bytes("a.h5", out.getvalue())
+
+
+def test_an_hdf5_bomb_is_refused_by_the_size_of_its_pieces() -> None:
+    out = io.BytesIO()
+    with h5py.File(out, "w") as file:
+        file.create_dataset(
+            "demo1/tf_info/pos_rot_data",
+            (7, 20),
+            "f8",
+            chunks=(7, 2**21),
+            maxshape=(7, None),
+            compression="gzip",
+        )
+
+    with pytest.raises(TooLargeError, match="unpacks to"):
         inspect_bytes("a.h5", out.getvalue())
 
 
