@@ -104,7 +104,7 @@ def set_stations(document: Document, stations: int) -> Document:
 
 def add_demonstrations(document: Document, demonstrations: Sequence[Demonstration]) -> Document:
     """Append demonstrations; those without a name are numbered."""
-    first = len(document.demonstrations) + 1
+    first = _next_number("Demonstration", [shown.demonstration.name for shown in document.demonstrations])
     named = tuple(
         Shown(d if d.name else replace(d, name=f"Demonstration {first + i}"))
         for i, d in enumerate(demonstrations)
@@ -221,7 +221,8 @@ def put_landmark_back(document: Document, name: str) -> Document:
 
 def add_rule(document: Document, constraint: Constraint, name: str = "") -> Document:
     """Keep a correction of a reproduction as a rule."""
-    rule = Rule(constraint, name or f"Rule {len(document.rules) + 1}")
+    number = _next_number("Rule", [rule.name for rule in document.rules])
+    rule = Rule(constraint, name or f"Rule {number}")
     return replace(document, rules=(*document.rules, rule))
 
 
@@ -253,6 +254,13 @@ def _with_shown(document: Document, index: int, shown: Shown) -> Document:
 def _with_landmark(document: Document, index: int, place: Place) -> Document:
     before, after = document.landmarks[:index], document.landmarks[index + 1 :]
     return replace(document, landmarks=(*before, place, *after))
+
+
+def _next_number(noun: str, names: Sequence[str]) -> int:
+    """One more than there are things, and than any name of the form ``<noun> <number>`` says."""
+    said = (name.removeprefix(f"{noun} ") for name in names if name.startswith(f"{noun} "))
+    numbers = [int(number) for number in said if number.isascii() and number.isdecimal() and len(number) < 7]
+    return max([len(names), *numbers]) + 1
 
 
 def _without(items: tuple[_T, ...], index: int) -> tuple[_T, ...]:

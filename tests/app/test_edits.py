@@ -211,3 +211,25 @@ def test_a_skill_of_recordings_holds_them_all_under_its_title() -> None:
 
 def test_an_edit_error_is_an_error_of_the_input() -> None:
     assert issubclass(EditError, GcError)
+
+
+def test_a_number_is_given_to_one_demonstration_only() -> None:
+    nameless = replace(demonstration(), name="")
+    document = edits.add_demonstrations(Document("Mine"), [nameless] * 3)
+
+    document = edits.delete_demonstration(document, 0)
+    document = edits.add_demonstrations(document, [nameless])
+
+    names = [shown.demonstration.name for shown in document.demonstrations]
+    assert len(set(names)) == len(names)
+
+
+def test_a_number_is_given_to_one_rule_only() -> None:
+    document = Document("Mine")
+    for _ in range(3):
+        document = edits.add_rule(document, rule().constraint)
+
+    document = edits.add_rule(edits.delete_rule(document, 0), rule().constraint)
+
+    names = [kept.name for kept in document.rules]
+    assert len(set(names)) == len(names)
