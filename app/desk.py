@@ -19,7 +19,7 @@ from app.gesture import Pull
 from app.grasp import Grasp
 from app.handpull import HandPull
 from app.model import learn
-from app.store import Offer, Plan, Playback, State, Store
+from app.store import Hand, Offer, Plan, Playback, State, Store
 
 SLIP: Final = 0.001
 """A pull shorter than this was a slip of the hand and changes nothing [m]."""
@@ -27,6 +27,8 @@ SHORTEST: Final = 0.03
 """A demonstration shorter than this was a slip of the hand [m]."""
 PATIENCE: Final = 0.08
 """A pulled hand moves with the events of the pull; after a longer silence it moves on by itself [s]."""
+LONGEST_WAY: Final = 3.0
+"""A hand that is moved by numbers is given this time to arrive, which takes it anywhere [s]."""
 GLIDE: Final = 0.7
 """In a loop the arm goes back to the start in what is left of the rest after this part of it."""
 
@@ -174,7 +176,7 @@ class Desk:
             self.open(edits.skill_of(Path(reading.name).stem, demonstrations), now)
         else:
             self.edit(lambda d: edits.add_demonstrations(d, demonstrations), f"add {reading.name}", now=now)
-        self.say(f"{reading.name}: {reading.summary}")
+        self.say(f"{reading.name}: {reading.summary_in(unit)}")
 
     def decline_file(self) -> None:
         """Forget the offered file."""
@@ -227,7 +229,7 @@ class Desk:
     def _grab(self, drag: Drag) -> Grasp | None:
         pull: Pull | HandPull | None
         if drag.node == "/hand":
-            pull = HandPull(self._arm, self._driver.hand, drag.time, records=not drag.aside)
+            pull = self._take_hand(drag.time, records=not drag.aside)
             self.playback = replace(self.playback, playing=False)
         else:
             pull = gesture.pull_on(drag.node, drag.grabbed, self.model, self.view.pull_width)
@@ -243,6 +245,11 @@ class Desk:
         held.aim(drag)
         return held
 
+    def _take_hand(self, now: float, *, records: bool) -> HandPull:
+        """Take the hand, open or closed as it is shown; what was played may have left it otherwise."""
+        hand = replace(self._driver.hand, gripper=float(self.view.gripper_closed))
+        return HandPull(self._arm, hand, now, records=records)
+
     def let_go(self, now: float) -> None:
         """End whatever is pulled, and keep what it did."""
         held, self._held = self._held, None
@@ -250,14 +257,13 @@ class Desk:
             return
         pull = held.pull
         if isinstance(pull, HandPull):
-            self._let_hand_go(pull, now)
+            self._let_hand_go(pull, pull.finish(), now)
         elif held.moved >= SLIP:
             self.store.edit(lambda d: pull.apply(d, held.track.displacement), pull.name, now=now)
             if pull.node.startswith("/start/"):
                 self.playback = player.play(replace(self.playback, time=0.0), True)
 
-    def _let_hand_go(self, pull: HandPull, now: float) -> None:
-        hand = pull.finish()
+    def _let_hand_go(self, pull: HandPull, hand: Hand, now: float) -> None:
         self._driver.released(hand, pull.begins_at.joints if pull.records else None, now)
         if not pull.records:
             self.say("The next demonstration begins here.")
@@ -275,9 +281,9 @@ class Desk:
         """Move the hand, and the start of the next demonstration, without recording."""
         self.let_go(now)
         self.playback = replace(self.playback, playing=False)
-        pull = HandPull(self._arm, self._driver.hand, now, records=False)
+        pull = self._take_hand(now, records=False)
         pull.aim(now, edits.point(position))
-        self._let_hand_go(pull, now)
+        self._let_hand_go(pull, pull.finish(LONGEST_WAY), now)
 
     # --- time --------------------------------------------------------------------------
 

@@ -52,6 +52,7 @@ class HandPull:
         self._arm = arm
         self._servo = servo.begin(arm, hand.joints, now)
         self._off_since: float | None = None
+        """Since when the hand is off its target [s]; None while it is there."""
         self._gripper = hand.gripper
         self._began = self._servo.time
         self._drawn = Drawn(np.zeros(1), hand.position[None], np.full(1, hand.gripper))
@@ -72,10 +73,15 @@ class HandPull:
         self._record(motion)
         return self._hand()
 
-    def finish(self) -> Hand:
-        """Let the arm arrive where the pointer let go; returns where it is."""
-        self._servo, motion = servo.settle(self._servo, self._arm)
+    def finish(self, at_most: float = servo.SETTLE_TIME) -> Hand:
+        """Let the arm arrive where the pointer let go, within a time [s]; returns where it is.
+
+        A hand that is merely put somewhere stays there, so it says at once where it could not follow.
+        """
+        self._servo, motion = servo.settle(self._servo, self._arm, at_most)
         self._record(motion)
+        if not self.records:
+            self._off_since = -np.inf
         return self._hand()
 
     def drawn(self) -> Drawn:

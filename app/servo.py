@@ -27,7 +27,7 @@ USUAL_GAP = 0.05
 HURRY = 0.1
 """The hand goes this share faster or slower than the pointer to keep its lag."""
 SETTLE_TIME = 0.6
-"""The longest time the hand is given to arrive after the last event [s]."""
+"""The longest time a released hand is given to arrive after the last event [s]."""
 ARRIVED = 0.001
 """A hand this near to the last target has arrived [m]."""
 STOPPED = 2e-5
@@ -141,7 +141,7 @@ def advance(servo: Servo, arm: Arm, targets: npt.ArrayLike, until: float) -> tup
     return steps[-1], _motion(arm, steps[1:], len(servo.joints))
 
 
-def settle(servo: Servo, arm: Arm) -> tuple[Servo, Motion]:
+def settle(servo: Servo, arm: Arm, at_most: float = SETTLE_TIME) -> tuple[Servo, Motion]:
     """Let the hand arrive after the last event.
 
     Parameters
@@ -150,19 +150,20 @@ def settle(servo: Servo, arm: Arm) -> tuple[Servo, Motion]:
         As the last call of `advance` left it.
     arm : Arm
         Moves by `Arm.step`.
+    at_most : float
+        The longest time it is given [s].
 
     Returns
     -------
     servo : Servo
         At rest.
     motion : Motion
-        Until the tool is within `ARRIVED` of the last target or has stopped,
-        at most `SETTLE_TIME` long.
+        Until the tool is within `ARRIVED` of the last target or has stopped.
     """
     steps = [servo]
     last = np.vstack([servo.waypoints, servo.pending])[-1]
     before = arm.tool_pose(servo.joints)[:3, 3]
-    for _ in range(round(SETTLE_TIME * TICKS_PER_SECOND)):
+    for _ in range(round(at_most * TICKS_PER_SECOND)):
         there = steps[-1].reference >= last[0] and len(steps[-1].pending) == 0
         if there and math.dist(before, last[1:]) <= ARRIVED:
             break

@@ -429,3 +429,12 @@ def test_an_accepted_file_can_be_undone(desk: Desk, mouse: Mouse) -> None:
     desk.undo(mouse.now)
 
     assert desk.store.document is before
+
+
+def test_an_accepted_file_is_described_in_the_unit_that_was_chosen(desk: Desk, mouse: Mouse) -> None:
+    desk.offer_reading(inspect_bytes("mine.csv", RECORDING))
+    assert desk.offer.unit == "m"
+
+    desk.accept_file("mm", desk.offer.frame, mouse.now)
+
+    assert "read as mm" in desk.state().message

@@ -318,3 +318,34 @@ def test_an_empty_skill_learns_from_what_is_shown() -> None:
     assert len(state.document.demonstrations) == 3
     assert state.model.problem is None
     assert state.model.cylinder is not None
+
+
+def test_a_hand_that_numbers_cannot_bring_there_says_so(arm: Arm) -> None:
+    desk = Desk(taught(), arm)
+
+    desk.move_hand(FAR_AWAY, 5.0)
+
+    state = desk.state()
+    assert state.warning
+    assert "reach" in state.message
+    assert state.hand.wanted is not None
+
+
+def test_a_hand_moved_by_numbers_to_where_it_can_be_says_no_warning(arm: Arm) -> None:
+    desk = Desk(taught(), arm)
+
+    desk.move_hand(desk.state().hand.position + WAY, 5.0)
+
+    assert not desk.state().warning
+
+
+def test_what_is_recorded_of_the_gripper_is_what_is_shown_though_a_run_was_played(
+    desk: Desk, mouse: Mouse
+) -> None:
+    desk.toggle_gripper()
+    desk.play(True)
+    mouse.wait(1.0)
+    mouse.pull("/hand", WAY)
+
+    assert desk.state().view.gripper_closed
+    assert set(last(desk).gripper) == {1.0}
