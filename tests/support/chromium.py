@@ -31,6 +31,7 @@ FLAGS = [
     "--use-gl=angle",
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
+    "--webgl-antialiasing-mode=none",
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
@@ -40,17 +41,22 @@ FLAGS = [
     "--disable-renderer-backgrounding",
     "--disable-backgrounding-occluded-windows",
 ]
-DRAWN = """names => { const m = window.__viserMutable;
-    return Boolean(m && m.camera && m.canvas && names.every(n => m.nodeRefFromName[n])
-        && m.messageQueue.length === 0); }"""
-FRAMES = """async count => { const m = window.__viserMutable;
-    for (let i = 0; i < count; i++) { m.requestRender();
-        await new Promise(done => requestAnimationFrame(() => setTimeout(done, 0))); } }"""
-PIXEL = """([name, local]) => { const m = window.__viserMutable, o = m.nodeRefFromName[name];
+MOUNTED = """names => { const m = window.__viserMutable;
+    return Boolean(m && m.camera && m.canvas && names.every(n => m.nodeRefFromName[n])); }"""
+FRAME = """const frame = async () => { window.__viserMutable.requestRender();
+    await new Promise(done => requestAnimationFrame(() => setTimeout(done, 0))); };"""
+# What plays fills the queue again and again: only what waits now has to be taken out of it.
+DRAWN = f"""async () => {{ {FRAME}
+    const last = window.__viserMutable.messageQueue.at(-1);
+    while (last && window.__viserMutable.messageQueue.includes(last)) await frame();
+    await frame(); await frame(); }}"""
+FRAMES = f"async count => {{ {FRAME} for (let i = 0; i < count; i++) await frame(); }}"
+PIXELS = """([name, local]) => { const m = window.__viserMutable, o = m.nodeRefFromName[name];
     o.updateWorldMatrix(true, false);
-    const p = new o.position.constructor(...local).applyMatrix4(o.matrixWorld).project(m.camera);
     const r = m.canvas.getBoundingClientRect();
-    return [r.left + (p.x + 1) / 2 * r.width, r.top + (1 - p.y) / 2 * r.height]; }"""
+    return local.map(at => {
+        const p = new o.position.constructor(...at).applyMatrix4(o.matrixWorld).project(m.camera);
+        return [r.left + (p.x + 1) / 2 * r.width, r.top + (1 - p.y) / 2 * r.height]; }); }"""
 WORLD = """name => { const refs = window.__viserMutable.nodeRefFromName, o = refs[name], root = refs[""];
     o.updateWorldMatrix(true, false); root.updateWorldMatrix(true, false);
     const toWorld = root.matrixWorld.clone().invert();
@@ -63,6 +69,10 @@ POINTS = """name => { let found = null;
         if (a.instanceStart) found = Array.from(a.instanceStart.data.array);
         else if (a.position) found = Array.from(a.position.array); });
     return found; }"""
+VISIBLE = """name => { let o = window.__viserMutable.nodeRefFromName[name];
+    if (!o) return false;
+    for (; o; o = o.parent) if (!o.visible) return false;
+    return true; }"""
 ON_CANVAS = "([x, y]) => document.elementFromPoint(x, y) === window.__viserMutable.canvas"
 
 # Chromium's own remark on a listener inside viser's page; it says nothing about ours.
@@ -88,9 +98,13 @@ class ViserPage:
     # --- waiting --------------------------------------------------------------------------------------
 
     def wait_drawn(self, *names: str, timeout: float = 90.0) -> None:
-        """Wait until these nodes are there, nothing is queued, and three more frames were drawn."""
-        self.page.wait_for_function(DRAWN, arg=list(names), timeout=1000 * timeout)
-        self.page.evaluate(FRAMES, 3)
+        """Wait until these nodes are there, and what was sent up to then is on the screen."""
+        self.page.wait_for_function(MOUNTED, arg=list(names), timeout=1000 * timeout)
+        self.page.evaluate(DRAWN)
+
+    def frames(self, count: int) -> None:
+        """Let the page draw so many pictures."""
+        self.page.evaluate(FRAMES, count)
 
     def wait_until(self, condition: Callable[[], Any], timeout: float = 20.0) -> Any:
         """Wait, with the page running, until `condition` holds, and return what it gave."""
@@ -112,8 +126,21 @@ class ViserPage:
 
     def pixel(self, name: str, local: Sequence[float] = (0.0, 0.0, 0.0)) -> Pixel:
         """Where a point of a node's own frame [m] is on the screen."""
-        x, y = self.page.evaluate(PIXEL, [name, [float(v) for v in local]])
+        x, y = self.pixels(name, [local])[0]
         return float(x), float(y)
+
+    def pixels(self, name: str, local: Sequence[Sequence[float]] | np.ndarray) -> np.ndarray:
+        """(n, 2) where points (n, 3) of a node's own frame [m] are on the screen."""
+        points = np.asarray(local, dtype=float).reshape(-1, 3)
+        return np.asarray(self.page.evaluate(PIXELS, [name, points.tolist()]), dtype=float)
+
+    def visible(self, name: str) -> bool:
+        """Whether a node is there and neither it nor what it hangs on is hidden."""
+        return bool(self.page.evaluate(VISIBLE, name))
+
+    def on_canvas(self, at: Pixel) -> bool:
+        """Whether the 3D canvas is what one sees at that pixel."""
+        return bool(self.page.evaluate(ON_CANVAS, [float(v) for v in at]))
 
     def position(self, name: str) -> np.ndarray:
         """(3,) origin of a node in the world [m], as the page has it."""
@@ -165,10 +192,10 @@ class ViserPage:
 
     def grab(self, at: Pixel, *, key: str | None = None, button: str = "left") -> None:
         """Press the mouse; AssertionError when a panel covers that pixel."""
-        if not self.page.evaluate(ON_CANVAS, list(at)):
+        if not self.on_canvas(at):
             raise AssertionError(f"pixel {at} is not on the 3D canvas: a panel covers it or it is off screen")
         self.page.mouse.move(*at)
-        self.page.wait_for_timeout(200)  # the page needs a frame to see what is under the pointer
+        self.frames(2)  # the page sees what is under the pointer when it draws
         if key is not None:
             self.page.keyboard.down(key)
         self.page.mouse.down(button=_button(button))

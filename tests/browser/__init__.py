@@ -1,0 +1,1 @@
+"""Stories in a real browser, with a real mouse, on the real Jaco."""
