@@ -97,9 +97,12 @@ def encode(
     .. [1] S. R. Ahmadzadeh, M. A. Rana, S. Chernova. Generalized Cylinders for Learning, Reproduction,
        Generalization, and Refinement of Robot Skills. RSS 2017. doi:10.15607/RSS.2017.XIII.021
     """
-    shown = tuple(demonstrations)
-    if not shown:
+    given = tuple(demonstrations)
+    if not given:
         raise NoDemonstrationsError
+    order = _canonical_order(given)
+    places = sorted(range(len(order)), key=order.__getitem__)
+    shown = tuple(given[j] for j in order)
     assumed = len(shown) == 1
     settings = _checked(
         section, stations, angles, align_by, single_half_width if assumed else minimum_half_width
@@ -108,7 +111,7 @@ def encode(
     alignment = align(trimmed, settings.stations, settings.align_by, _given(directrix))
     normals = tangents(alignment.directrix)
     frames = rotation_minimizing_frames(alignment.directrix, normals, _first_normal(alignment, normals[0]))
-    return _assemble(shown, trimmed, alignment, frames, settings)
+    return _assemble(shown, trimmed, alignment, frames, settings, places=places)
 
 
 def _assemble(
@@ -117,8 +120,13 @@ def _assemble(
     alignment: Alignment,
     frames: FloatArray,
     settings: Settings,
+    *,
+    places: list[int],
 ) -> GeneralizedCylinder:
-    """Cut the demonstrations with the planes of the frames and build the sections."""
+    """Cut the demonstrations with the planes of the frames and build the sections.
+
+    `places` says where each demonstration that was given stands among those that are shown here.
+    """
     points, missed = effective_points(trimmed, alignment, frames[:, :, 0])
     local = (points - alignment.directrix[:, None]) @ frames[:, :, 1:]
     gone = arc_length(alignment.directrix)
@@ -130,19 +138,19 @@ def _assemble(
         frames=frames,
         angles=rays,
         radii=radii,
-        effective_points=points,
-        aligned=alignment.aligned,
+        effective_points=points[:, places],
+        aligned=alignment.aligned[places],
         times=alignment.times,
         orientations=mean_orientations(shown, trimmed, alignment.moments),
         gripper=majority_gripper(shown, trimmed, alignment.moments),
         section=settings.section,
         diagnostics=Diagnostics(
-            names=tuple(d.name or f"Demonstration {j + 1}" for j, d in enumerate(shown)),
+            names=tuple(shown[place].name or f"Demonstration {j + 1}" for j, place in enumerate(places)),
             align_by=settings.align_by,
-            trimmed_start=np.array([part.cut_start for part in trimmed]),
-            trimmed_end=np.array([part.cut_end for part in trimmed]),
-            duplicates=np.array([part.duplicates for part in trimmed], dtype=np.intp),
-            missed=missed,
+            trimmed_start=np.array([trimmed[place].cut_start for place in places]),
+            trimmed_end=np.array([trimmed[place].cut_end for place in places]),
+            duplicates=np.array([trimmed[place].duplicates for place in places], dtype=np.intp),
+            missed=missed[:, places],
             centre_outside=_centre_outside(local),
             minimum_half_width=settings.half_width,
             assumed_width=len(shown) == 1,
@@ -153,6 +161,15 @@ def _assemble(
     )
 
 
+def _canonical_order(shown: tuple[Demonstration, ...]) -> list[int]:
+    """Order that does not depend on the order given, so that rounding and ties do not either."""
+    keys = [
+        (*d.positions[[0, -1, len(d.positions) // 2]].ravel().tolist(), float(d.times[-1] - d.times[0]))
+        for d in shown
+    ]
+    return sorted(range(len(shown)), key=keys.__getitem__)
+
+
 def _checked(section: str, stations: int, angles: int, align_by: str, half_width: float) -> Settings:
     if section not in SECTIONS:
         raise UnknownOptionError("section", section, SECTIONS)
@@ -160,7 +177,7 @@ def _checked(section: str, stations: int, angles: int, align_by: str, half_width
         ("stations", stations, FEWEST_STATIONS),
         ("angles", angles, FEWEST_ANGLES),
     ):
-        if value < fewest or value != int(value):
+        if not fewest <= value < np.inf or value != int(value):
             raise InvalidSettingError(setting, value, f"a whole number of at least {fewest}")
     if not 0.0 < half_width < np.inf:
         raise InvalidSettingError("The half-width", half_width, "a length above 0 m")
@@ -193,7 +210,11 @@ def _first_normal(alignment: Alignment, direction: FloatArray) -> FloatArray:
     widest = across @ axes[:, -1]
     if float(np.linalg.norm(widest)) < 0.5:
         return across[:, int(np.argmin(np.abs(direction)))]
-    skew = float(((spread @ widest) ** 3).sum())
+    cubes = (spread @ widest) ** 3
+    skew = float(cubes.sum())
+    if abs(skew) <= 1e-9 * float(np.abs(cubes).sum()):
+        # Neither side is longer; a side of the room keeps rounding from choosing.
+        skew = float(widest[np.argmax(np.abs(widest))])
     return widest if skew >= 0.0 else -widest
 
 

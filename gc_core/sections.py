@@ -18,6 +18,9 @@ from gc_core.radius import loop_radii, slope_limited, vertex_angles, widened_to_
 SUPPORT_DIRECTIONS = 32
 """Directions in which the outermost points are looked for."""
 
+TIE = 1e-9
+"""Points that are as far in a direction to within this part of their distance are told apart by it [-]."""
+
 CURVE_SAMPLES = 72
 """Samples of a closed spline, shared by its pieces."""
 
@@ -142,13 +145,24 @@ def _corners(points: FloatArray) -> tuple[IntArray, IntArray]:
         Corner numbers; the first `n_corners` of a row differ, the rest repeat the first.
     n_corners : (N,) integer array
     """
-    outermost = np.argmax(points @ _directions().T, axis=1)
+    outermost = _outermost(points)
     fresh = outermost != np.roll(outermost, 1, axis=1)
     n_corners = np.maximum(fresh.sum(axis=1), 1)
     order = np.argsort(~fresh, axis=1, kind="stable")
     corners = np.take_along_axis(outermost, order, axis=1)
     beyond = np.arange(SUPPORT_DIRECTIONS)[None, :] >= n_corners[:, None]
     return np.where(beyond, corners[:, :1], corners), n_corners
+
+
+def _outermost(points: FloatArray) -> IntArray:
+    """Point (N, D) that is farthest in each direction; of equal ones, the one farther from the centre.
+
+    Else a point on the straight edge between two corners would be a corner or not by rounding.
+    """
+    away = np.sqrt(np.einsum("ijk,ijk->ij", points, points))
+    support = points @ _directions().T
+    support += TIE * away[:, :, None]
+    return np.argmax(support, axis=1)
 
 
 def _lacking_width(points: FloatArray, half_width: float) -> FloatArray:
@@ -163,7 +177,7 @@ def _thickened(points: FloatArray, corners: IntArray, lacking: FloatArray) -> Fl
     if not lacking.any():
         most = int((corners != corners[:, :1]).sum(axis=1).max()) + 1
         return np.take_along_axis(points, corners[:, :most, None], axis=1)
-    outermost = np.argmax(points @ _directions().T, axis=1)
+    outermost = _outermost(points)
     loops = np.take_along_axis(points, outermost[:, :, None], axis=1)
     # The polygon of directions lies inside the disc that it stands for.
     grown = lacking / np.cos(np.pi / SUPPORT_DIRECTIONS)

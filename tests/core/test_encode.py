@@ -131,6 +131,65 @@ def test_the_order_of_the_demonstrations_does_not_matter(seed: int, order: list[
     np.testing.assert_allclose(other.radii, one.radii, rtol=1e-6)
 
 
+SYMMETRIC = {
+    "two lines": [(0.0, 0.0), (0.05, 0.03)],
+    "the same twice": [(0.0, 0.0), (0.0, 0.0), (0.1, 0.02)],
+    "a square": [(0.0, 0.0), (0.1, 0.0), (0.1, 0.1), (0.0, 0.1)],
+    "a square and the middle of a side": [(0.0, 0.0), (0.1, 0.0), (0.1, 0.1), (0.0, 0.1), (0.05, 0.0)],
+}
+
+
+def parallel(places: list[tuple[float, float]]) -> list[Demonstration]:
+    return [line((0.0, y, z), (0.5, y, z)) for y, z in places]
+
+
+@settings(max_examples=40, deadline=None)
+@given(places=st.sampled_from(sorted(SYMMETRIC)), section=sections, data=st.data())
+def test_the_order_does_not_matter_where_ties_could_decide(
+    places: str, section: str, data: st.DataObject
+) -> None:
+    shown = parallel(SYMMETRIC[places])
+    order = data.draw(st.permutations(range(len(shown))))
+    one = encode(shown, section=section, stations=20)
+    other = encode([shown[j] for j in order], section=section, stations=20)
+
+    np.testing.assert_array_equal(other.surface(), one.surface())
+    np.testing.assert_array_equal(other.frames, one.frames)
+    np.testing.assert_array_equal(other.effective_points, one.effective_points[:, order])
+    np.testing.assert_array_equal(other.aligned, one.aligned[order])
+
+
+@settings(max_examples=30, deadline=None)
+@given(turn=seeds, section=sections)
+def test_a_demonstration_between_two_others_bends_their_side_alike_in_all_directions(
+    turn: int, section: str
+) -> None:
+    shown = parallel(SYMMETRIC["a square and the middle of a side"])
+    here = encode(shown, section=section, stations=20)
+    there = encode(moved(shown, rotation(turn), np.zeros(3)), section=section, stations=20)
+
+    np.testing.assert_allclose(there.volume, here.volume, rtol=1e-6)
+
+
+def test_what_is_said_of_a_demonstration_is_said_in_the_order_given() -> None:
+    late, early = with_pause(bundle(1, 1)[0], 0.0, 2.0), bundle(1, 2)[1]
+
+    for shown in ([late, early], [early, late]):
+        told = encode(shown).diagnostics
+        assert [cut > 1.0 for cut in told.trimmed_start] == [d is late for d in shown]
+
+
+def test_mean_orientations_have_signs_that_ignore_the_order() -> None:
+    first, second = bundle(1, 2)
+    quaternion = np.array([0.8, 0.6, 0.0, 0.0])
+    shown = [
+        Demonstration(d.times, d.positions, np.tile(sign * quaternion, (len(d.times), 1)))
+        for d, sign in ((first, 1.0), (second, -1.0))
+    ]
+
+    np.testing.assert_array_equal(encode(shown).orientations, encode(shown[::-1]).orientations)
+
+
 @settings(max_examples=20, deadline=None)
 @given(seed=seeds, section=sections)
 def test_sections_change_slowly_along_the_curve(seed: int, section: str) -> None:
@@ -263,6 +322,8 @@ def test_the_gripper_follows_the_majority_and_switches_once() -> None:
         (UnknownOptionError, {"align_by": "dtw"}),
         (UnknownOptionError, {"directrix": "median"}),
         (InvalidSettingError, {"stations": 3}),
+        (InvalidSettingError, {"stations": np.nan}),
+        (InvalidSettingError, {"angles": np.inf}),
         (InvalidSettingError, {"angles": 2}),
         (InvalidSettingError, {"minimum_half_width": 0.0}),
         (GcError, {"directrix": np.zeros((5, 2))}),
