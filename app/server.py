@@ -5,7 +5,7 @@ import logging
 import signal
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Sequence, Set
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -145,11 +145,13 @@ class Server:
                 "what does not belong to the motion, or save every tenth sample.",
             )
 
+    def _present(self) -> Set[int]:
+        return self._viser.get_clients().keys()
+
     def _sweep(self) -> None:
         while not self._closed.wait(_SWEEP):
-            present = set(self._viser.get_clients())
             for session in tuple(self._sessions.values()):
-                session.reconcile(present)
+                session.reconcile(self._present)
             deadline = time.monotonic() - FORGOTTEN_AFTER
             with self._lock:
                 gone = [

@@ -21,7 +21,7 @@ from app.actions import ViewName
 from app.actor import TICK, Actor, Latest
 from app.arm.protocol import Arm
 from app.desk import Desk
-from app.document import Document
+from app.document import Document, FloatArray
 from app.files import inspect_bytes
 from app.library import Library, LibraryError
 from app.scene import VIEWS
@@ -89,11 +89,14 @@ class Session:
         """A tab has gone; what it was pulling is let go."""
         self._actor.post(lambda: self._detach(client_id))
 
-    def reconcile(self, present: Set[int]) -> None:
-        """Forget tabs that are not connected any more, whatever was missed."""
+    def reconcile(self, present: Callable[[], Set[int]]) -> None:
+        """Forget tabs that are not connected any more, whatever was missed.
+
+        ``present`` is asked in the mailbox: a tab that came since it was posted is not forgotten.
+        """
 
         def action() -> None:
-            for client_id in self._viewers.keys() - present:
+            for client_id in self._viewers.keys() - present():
                 self._detach(client_id)
             if not self._viewers and self.empty_since is None:
                 self.empty_since = time.monotonic()
@@ -109,6 +112,12 @@ class Session:
     def _attach(self, client: viser.ClientHandle) -> None:
         self.empty_since = None
         self._touched = self.clock()
+
+        @client.camera.on_update
+        async def _(camera: viser.CameraHandle) -> None:
+            position = camera.position
+            self._actor.post(lambda: self._look_from(client.client_id, position))
+
         if self._works is None:
             self._work(client)
         else:
@@ -129,17 +138,17 @@ class Session:
 
     def _show(self, viewer: Viewer) -> None:
         self._viewers[viewer.client.client_id] = viewer
-        viewer.scene.look_from(viewer.client.camera.position)
+        self._look_from(viewer.client.client_id, viewer.client.camera.position)
 
-        @viewer.client.camera.on_update
-        async def _(camera: viser.CameraHandle) -> None:
-            position = camera.position
-            self._actor.post(lambda: viewer.scene.look_from(position))
+    def _look_from(self, client_id: int, position: FloatArray) -> None:
+        viewer = self._viewers.get(client_id)
+        if viewer is not None:
+            viewer.scene.look_from(position)
 
     def _take_over(self, client: viser.ClientHandle) -> None:
-        former = None if self._works is None else self._viewers.get(self._works)
-        if former is not None and former.client.client_id == client.client_id:
+        if client.client_id == self._works or client.client_id not in self._viewers:
             return
+        former = None if self._works is None else self._viewers.get(self._works)
         self._desk.let_go(self.clock())
         if former is not None:
             self._watch(former.client)
@@ -147,14 +156,14 @@ class Session:
 
     def _detach(self, client_id: int) -> None:
         self._viewers.pop(client_id, None)
+        if not self._viewers:
+            self.empty_since = time.monotonic()
         if client_id == self._works:
-            self._desk.let_go(self.clock())
             self._works = None
             waiting = next(iter(self._viewers.values()), None)
             if waiting is not None:
                 self._work(waiting.client)
-        if not self._viewers:
-            self.empty_since = time.monotonic()
+            self._desk.let_go(self.clock())  # last: it may say that what was pulled cannot be kept
 
     # --- what a tab asks for -----------------------------------------------------------
 
@@ -180,8 +189,12 @@ class Session:
 
     def look_into(self, client_id: int, name: str, content: bytes) -> None:
         """Read an uploaded file in a worker and offer what is in it."""
-        self.post(client_id, lambda desk, _: desk.say(f"Reading {name} …"))
-        self._files.submit(lambda: inspect_bytes(name, content), self._desk.offer_reading)
+
+        def look(desk: Desk, _: float) -> None:
+            desk.say(f"Reading {name} …")
+            self._files.submit(lambda: inspect_bytes(name, content), desk.offer_reading)
+
+        self.post(client_id, look)
 
     def tell(self, client_id: int, message: str) -> None:
         """Show a warning to the tab that works here, if it is this one."""
@@ -200,10 +213,12 @@ class Session:
 
     def _draw(self) -> None:
         state = self._desk.state()
-        for viewer in tuple(self._viewers.values()):
-            viewer.draw(state)
-        self._plan(state)
-        self._save()
+        try:
+            for viewer in tuple(self._viewers.values()):
+                viewer.draw(state)
+        finally:  # what cannot be drawn is saved all the same
+            self._save()
+            self._plan(state)
 
     def _plan(self, state: State) -> None:
         model, run = state.model, state.playback.run
@@ -248,10 +263,15 @@ class Session:
         raise error
 
     def _save_now(self) -> None:
-        self._desk.let_go(self.clock())
-        if self._desk.store.document is not self._desk.saved:
-            document = self._desk.saving = self._desk.store.document
-            self._saved(document, self._write(document))
+        try:
+            self._desk.let_go(self.clock())
+        finally:
+            document = self._desk.store.document
+            if document is not self._desk.saved:
+                self._desk.saving = document
+                error = self._write(document)
+                if error is not None:  # nobody is there to be told
+                    _log.error("session %s is not saved: %s", self.code, error)
 
     def _report(self, error: Exception) -> None:
         if isinstance(error, GcError):

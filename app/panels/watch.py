@@ -1,10 +1,11 @@
 """What a second tab on the same skill sees: it watches, and may take over."""
 
 from collections.abc import Callable
-from html import escape
 
 import viser
 
+from app.binding import assign
+from app.panels import words
 from app.store import State
 
 
@@ -12,8 +13,7 @@ class WatchPanel:
     """Says that the skill is open elsewhere."""
 
     def __init__(self, gui: viser.GuiApi, take_over: Callable[[], None]) -> None:
-        self._title = gui.add_markdown("")
-        self._shown = ""
+        self._title = gui.add_html("")
         gui.add_markdown(
             "This skill is **open in another tab**, which works on it. Here you watch: everything that is "
             "done there shows here at once."
@@ -26,7 +26,4 @@ class WatchPanel:
 
     def draw(self, state: State) -> None:
         """Show the skill's name."""
-        title = escape(state.document.title)
-        if title != self._shown:
-            self._title.content = f"### {title}"
-            self._shown = title
+        assign(self._title, content=words.note(words.escape(state.document.title), strong=True))

@@ -44,13 +44,13 @@ class Pullable(Protocol):
         ...
 
 
-def checked_point(values: npt.ArrayLike) -> FloatArray | None:
-    """(3,) the point [m], or None when it is not three finite numbers within `FARTHEST`."""
+def checked_point(values: npt.ArrayLike, farthest: float = FARTHEST) -> FloatArray | None:
+    """(3,) the point [m], or None when it is not three finite numbers within ``farthest``."""
     try:
         point = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):
         return None
-    near = point.shape == (3,) and bool(np.all(np.abs(point) <= FARTHEST))
+    near = point.shape == (3,) and bool(np.all(np.abs(point) <= farthest))
     return point if near else None
 
 

@@ -1,9 +1,8 @@
 """All drawing parts of one session."""
 
 from collections.abc import Callable
-from typing import Protocol
+from typing import Final, Protocol
 
-import numpy as np
 import viser
 
 from app.actions import Actions
@@ -15,9 +14,13 @@ from app.scene.demonstrations import Demonstrations
 from app.scene.drop import DropLine
 from app.scene.hand import HandBall, Recording, Shortage
 from app.scene.landmarks import Landmarks
+from app.scene.pulls import checked_point
 from app.scene.reproductions import Reproductions, Starts
 from app.scene.view import Eye
 from app.store import State
+
+FARTHEST_CAMERA: Final = 1e6
+"""A camera farther away than this was sent by nobody who looks [m]."""
 
 
 class Part(Protocol):
@@ -68,5 +71,6 @@ class Scene:
 
     def look_from(self, position: FloatArray) -> None:
         """Say where this person's camera is (3,) [m]; the next `draw` turns the grips of the balls to it."""
-        if np.all(np.isfinite(position)):
-            self._eye.position = np.array(position, dtype=np.float64)
+        place = checked_point(position, FARTHEST_CAMERA)
+        if place is not None:
+            self._eye.position = place

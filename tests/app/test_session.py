@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import itertools
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from app.library import Library
+from app.document import Document
+from app.edits import EditError
+from app.library import Library, LibraryError
 from app.server import Server
+from app.viewers import Viewer
+from app.web import code_of
 from tests.app.site import (
     changed,
     grip_of,
@@ -218,6 +223,65 @@ def test_the_work_is_saved_after_the_gesture(client: FakeClient, library: str, c
     show_one(client)
 
     client.wait(saved(library, code))
+
+
+def test_work_that_cannot_be_drawn_is_saved_all_the_same(
+    client: FakeClient, code: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    written, save = threading.Event(), Library.save
+
+    def noted(self: Library, under: str, document: Document) -> None:
+        save(self, under, document)
+        if under == code and len(document.demonstrations) == 4:
+            written.set()
+
+    def broken(*_: object) -> None:
+        raise ValueError("a picture that cannot be drawn")
+
+    monkeypatch.setattr(Library, "save", noted)
+    monkeypatch.setattr(Viewer, "draw", broken)
+    pull(client, "/hand", (0.10, 0.05, -0.08), events=10)
+
+    assert written.wait(10.0)
+
+
+def test_a_last_save_that_fails_is_said_in_the_log(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    def full(*_: object) -> None:
+        raise LibraryError("The disk is full.")
+
+    with serving(library_in(tmp_path)) as server, tab(server, "never-saved-0001") as client:
+        monkeypatch.setattr(Library, "save", full)
+        pull(client, "/landmarks/goal", BY, let_go=False)
+        client.wait(dragging)
+
+    assert "never-saved-0001 is not saved: The disk is full." in caplog.text
+
+
+def test_a_tab_that_left_while_it_pulled_too_far_leaves_the_work_to_the_next(
+    server: Server, client: FakeClient, code: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def beyond(*_: object) -> None:
+        raise EditError("It was pulled too far.")
+
+    with tab(server, code) as second:
+        pull(client, "/landmarks/goal", BY, let_go=False)
+        client.wait(dragging)
+        monkeypatch.setattr("app.edits.move_landmark", beyond)
+        client.close()
+
+        second.wait(lambda c: any(e.label == "Undo" for e in c.gui))
+
+
+def test_a_tab_that_takes_over_and_back_is_followed_by_one_camera(server: Server, code: str) -> None:
+    with tab(server, code) as first, tab(server, code) as second:
+        for one in (second, first, second):
+            press(one, "Work on it here")
+            one.wait(lambda c: any(e.label == "Undo" for e in c.gui) and "/landmarks/goal" in c.nodes)
+
+        mine = [c for c in server._viser.get_clients().values() if code_of(c) == code]
+        assert [len(c.camera._state.camera_cb) for c in mine] == [1, 1]
 
 
 def test_looking_alone_saves_nothing(tmp_path: Path) -> None:

@@ -283,3 +283,16 @@ def test_the_grip_of_the_hand_points_at_the_camera(stage: Stage) -> None:
     ahead = np.array([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)])
 
     np.testing.assert_allclose(ahead, [0.0, 0.0, 1.0], atol=1e-9)
+
+
+@pytest.mark.parametrize("nowhere", [np.full(3, np.nan), np.zeros(4), np.array(["a", "b", "c"])])
+def test_a_camera_that_is_nowhere_turns_no_grip_and_keeps_the_scene_drawing(
+    stage: Stage, nowhere: np.ndarray
+) -> None:
+    stage.draw(state())
+    before = stage.client.node("/hand/grip").wxyz
+
+    stage.scene.look_from(nowhere)
+    stage.draw(state())
+
+    assert stage.client.node("/hand/grip").wxyz == before
