@@ -69,6 +69,7 @@ class Bench:
 
     def only_undo_is_posted(self) -> bool:
         """Press undo, which arrives after everything before it, and see that nothing else did."""
+        self.client.wait(lambda c: any(e.label == "Undo: move goal" and e.usable for e in c.gui))
         self.client.press("Undo: move goal")
         return self.notes.next() == ("undo", ()) and self.notes.none()
 
