@@ -74,9 +74,7 @@ def align(
         mean = np.mean([_at(d, moments) for d, moments in zip(demonstrations, clocks, strict=True)], axis=0)
     else:
         mean = _sampled(directrix, grid)
-    parameter = _even_parameter(
-        mean, grid, stations, max(float(arc_length(d.positions)[-1]) for d in demonstrations)
-    )
+    parameter = _even_parameter(mean, grid, stations, max(d.length for d in demonstrations))
     moments = np.array([np.interp(parameter, grid, clock) for clock in clocks])
     aligned = np.array([_at(d, m) for d, m in zip(demonstrations, moments, strict=True)])
     middle = aligned.mean(axis=0) if directrix is None else _sampled(directrix, parameter)

@@ -8,8 +8,8 @@ from itertools import combinations
 
 import numpy as np
 
-from gc_core.arrays import BoolArray, FloatArray, finite, read_only
-from gc_core.errors import ShapeError
+from gc_core.arrays import BoolArray, FloatArray, finite, read_only_fields
+from gc_core.errors import ShapeError, TooFewSamplesError
 from gc_core.frames import arc_length
 from gc_core.reproduction import Reproduction
 
@@ -37,6 +37,9 @@ class Constraint:
     """(K,) how far the teacher moved the run [m]."""
     name: str = ""
     """How the person calls the rule."""
+
+    def __post_init__(self) -> None:
+        read_only_fields(self)
 
     @property
     def active(self) -> BoolArray:
@@ -66,11 +69,13 @@ class Constraint:
 
         Raises
         ------
-        ShapeError, NotFiniteError
-            If the two are not paths of equal length.
+        ShapeError, NotFiniteError, TooFewSamplesError
+            If the two are not paths of equal length, or empty.
         """
         before = finite(_path(original), "original", (None, 3))
         after = finite(_path(corrected), "corrected", (None, 3))
+        if not len(before):
+            raise TooFewSamplesError("The original", 0)
         if len(before) != len(after):
             raise ShapeError("corrected", f"({len(before)}, 3), as the original,", after.shape)
         stations = (
@@ -82,7 +87,7 @@ class Constraint:
         lengths = np.linalg.norm(moved, axis=1)
         active = (lengths >= LEAST_CORRECTION)[:, None]
         normals = np.where(active, moved / np.maximum(lengths, LEAST_CORRECTION)[:, None], 0.0)
-        return Constraint(read_only(stations), after, read_only(normals), read_only(lengths), name)
+        return Constraint(stations, after, normals, lengths, name)
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +125,7 @@ def constrain(reproduction: Reproduction, constraints: Sequence[Constraint]) -> 
     planes = [_planes(constraint, reproduction.stations) for constraint in constraints]
     single = reproduction.positions.ndim == 2
     runs = reproduction.positions[None] if single else reproduction.positions
-    moved = np.array([_moved(run, planes) for run in runs])
+    moved = np.array([_moved(run, planes) for run in runs]).reshape(runs.shape)
     if np.array_equal(moved, runs):
         return reproduction
     return replace(reproduction, positions=moved[0] if single else moved)

@@ -10,7 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from gc_core.arrays import FloatArray, finite, read_only
+from gc_core.arrays import FloatArray, finite, read_only, read_only_fields
 from gc_core.errors import (
     NoMotionError,
     ShapeError,
@@ -57,7 +57,7 @@ class Demonstration:
             raise ShapeError(f"{what}: times", f"({len(positions)},), one per position,", times.shape)
         if len(times) < 2:
             raise TooFewSamplesError(what, len(times))
-        _check_times(what, times)
+        check_times(what, times)
         extent = float(np.linalg.norm(np.ptp(positions, axis=0)))
         if extent < SMALLEST_MOTION:
             raise NoMotionError(what, len(times), extent)
@@ -83,8 +83,13 @@ class Trimmed:
     """Time that stood still at the start [s]."""
     cut_end: float
     """Time that stood still at the end [s]."""
+    length: float
+    """Length of the path that was kept [m]."""
     duplicates: int
     """Samples that repeat the place of the sample before, within what was kept."""
+
+    def __post_init__(self) -> None:
+        read_only_fields(self)
 
 
 @lru_cache(maxsize=256)
@@ -137,17 +142,20 @@ def _joined(demonstration: Demonstration, first: int, last: int, speed: float) -
         end = min(times[last] + tail / max(speed, 1e-12), times[-1])
         kept, clock = np.concatenate((kept, [len(times) - 1.0])), np.concatenate((clock, [end]))
     path = positions[kept.astype(np.intp)]
+    steps = np.diff(path, axis=0)
     return Trimmed(
         times=clock - clock[0],
         positions=path,
         kept=kept,
         cut_start=float(clock[0] - times[0]),
         cut_end=float(times[-1] - clock[-1]),
-        duplicates=int((path[1:] == path[:-1]).all(axis=1).sum()),
+        length=float(np.sqrt(np.einsum("ij,ij->i", steps, steps)).sum()),
+        duplicates=int((steps == 0.0).all(axis=1).sum()),
     )
 
 
-def _check_times(what: str, times: FloatArray) -> None:
+def check_times(what: str, times: FloatArray) -> None:
+    """Refuse times (T,) [s] that do not strictly increase, naming the sample."""
     standing = np.flatnonzero(np.diff(times) <= 0.0)
     if standing.size:
         index = int(standing[0])

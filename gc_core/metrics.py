@@ -6,6 +6,7 @@ import numpy as np
 
 from gc_core.arrays import FloatArray, finite
 from gc_core.cylinder import GeneralizedCylinder
+from gc_core.demonstration import check_times
 from gc_core.errors import ShapeError, TooFewSamplesError
 from gc_core.registration import ThinPlateSpline
 
@@ -103,12 +104,13 @@ def jerk(positions: FloatArray, times: FloatArray) -> float:
 
     Raises
     ------
-    TooFewSamplesError
-        If there are less than four samples.
+    TooFewSamplesError, TimesNotIncreasingError
+        If there are less than four samples, or two at one time.
     """
     value, clock = _path(positions, "positions"), finite(times, "times", (len(positions),))
     if len(value) < 4:
         raise TooFewSamplesError("The path (a third derivative needs 4)", len(value))
+    check_times("The path", clock)
     # k-th derivative = k! times the divided difference of order k.
     for order in (1, 2, 3):
         value = order * np.diff(value, axis=0) / (clock[order:] - clock[:-order])[:, None]

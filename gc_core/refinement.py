@@ -41,7 +41,7 @@ def soft_correction(positions: ArrayLike, index: int, displacement: ArrayLike, w
     """
     path = finite(positions, "positions", (None, 3))
     pull = finite(displacement, "displacement", (3,))
-    if not -len(path) <= index < len(path):
+    if not -len(path) <= index < len(path) or index != int(index):
         raise InvalidSettingError("index", index, f"a sample from 0 to {len(path) - 1}")
     if not 0.0 < width < np.inf:
         raise InvalidSettingError("width", width, "a length above 0 m")

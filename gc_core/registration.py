@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial.distance import cdist
 
-from gc_core.arrays import FloatArray, IntArray, finite, read_only
+from gc_core.arrays import FloatArray, IntArray, finite, read_only_fields
 from gc_core.errors import InvalidSettingError, LandmarkMismatchError
 from gc_core.landmarks import Landmark, acting_points, landmarks, rotation
 
@@ -35,7 +35,7 @@ class ThinPlateSpline:
     """
 
     centres: FloatArray
-    """(L, 3) distinct source landmarks s_n [m]."""
+    """(L, 3) distinct source landmarks s_n; none where the map is affine [m]."""
     weights: FloatArray
     """(L, 3) weights w_n [m]."""
     linear: FloatArray
@@ -54,6 +54,9 @@ class ThinPlateSpline:
     """Name of the case in words."""
     residual: float
     """Greatest distance between a moved source landmark and its target [m]."""
+
+    def __post_init__(self) -> None:
+        read_only_fields(self)
 
     @staticmethod
     def fit(source: ArrayLike, target: ArrayLike, regularization: float = 0.0) -> ThinPlateSpline:
@@ -95,18 +98,19 @@ class ThinPlateSpline:
         if not 0.0 <= regularization < np.inf:
             raise InvalidSettingError("regularization", regularization, "a number of at least 0")
         if not len(before):
-            return _affine(np.eye(3), np.zeros(3), np.zeros(3), "no landmarks: nothing moves")
+            return _affine(np.eye(3), np.zeros(3), np.zeros(3), "no landmarks: nothing moves", rank=0)
         return _fit(before, after, regularization)
 
-    def __call__(self, points: FloatArray) -> FloatArray:
+    def __call__(self, points: ArrayLike) -> FloatArray:
         """Map points (..., 3) [m] to points (..., 3) [m]."""
+        points = np.asarray(points, dtype=np.float64)
         mapped = (points - self.origin) @ self.linear.T + self.image
         if not len(self.weights):
             return mapped
         flat = points.reshape(-1, 3)
         return mapped + (_kernel(flat, self.centres, self.scale) @ self.weights).reshape(points.shape)
 
-    def jacobian(self, points: FloatArray) -> FloatArray:
+    def jacobian(self, points: ArrayLike) -> FloatArray:
         """Derivative of the map.
 
         Parameters
@@ -119,6 +123,7 @@ class ThinPlateSpline:
         (P, 3, 3) array
             Row: output, column: input. At a landmark, where the kernel has a corner, its part is 0 [-].
         """
+        points = np.asarray(points, dtype=np.float64)
         if not len(self.weights):
             return np.broadcast_to(self.linear, (len(points), 3, 3)).copy()
         away = points[:, None, :] - self.centres
@@ -166,13 +171,15 @@ def register(
     places, moved = (np.concatenate(side) for side in zip(*pairs, strict=True))
     if len(pairs) == 1 and len(places) > 1:
         (a, b), (one, two) = (before[0], after[0]), (rotation(before[0]), rotation(after[0]))
-        return _affine(two @ one.T, a.position, b.position, "one frame: a rigid motion")
+        return _affine(two @ one.T, a.position, b.position, "one frame: a rigid motion", rank=3)
     return ThinPlateSpline.fit(places, moved, regularization)
 
 
-def _affine(linear: FloatArray, origin: FloatArray, image: FloatArray, case: str) -> ThinPlateSpline:
+def _affine(
+    linear: FloatArray, origin: FloatArray, image: FloatArray, case: str, *, rank: int
+) -> ThinPlateSpline:
     none = np.zeros((0, 3))
-    return ThinPlateSpline(none, none, linear, origin, image, 1.0, 0.0, 0, case, 0.0)
+    return ThinPlateSpline(none, none, linear, origin, image, 1.0, 0.0, rank, case, 0.0)
 
 
 def _merged(source: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -202,11 +209,11 @@ def _fit(all_sources: FloatArray, all_targets: FloatArray, regularization: float
     linear = turn + stretch[1:].T @ spanned.T
     energy = float(np.einsum("li,lm,mi->", weights, _kernel(source, source, scale), weights)) / scale
     spline = ThinPlateSpline(
-        centres=read_only(source if rank + 1 < len(source) else np.zeros((0, 3))),
-        weights=read_only(weights if rank + 1 < len(source) else np.zeros((0, 3))),
-        linear=read_only(linear),
-        origin=read_only(origin),
-        image=read_only(image + stretch[0]),
+        centres=source if rank + 1 < len(source) else np.zeros((0, 3)),
+        weights=weights if rank + 1 < len(source) else np.zeros((0, 3)),
+        linear=linear,
+        origin=origin,
+        image=image + stretch[0],
         scale=scale,
         bending_energy=max(energy, 0.0),
         rank=rank,

@@ -26,6 +26,9 @@ LATER = 0.05
 CLEARLY_NEARER = 0.7
 """... and, outside of the tube, is nearer to that station than this part of its distance to station 0 [-]."""
 
+LAST_PART = 1e-3
+"""A start in the last plane joins this much before it [stations]."""
+
 JOIN_LENGTH = 0.1
 """A start off its section plane is joined over this part of the directrix, or twice its offset [-]."""
 
@@ -90,7 +93,7 @@ def reproduce(
     final_ratio : float
         For "convergent": ratio at the end, at least 0; smaller ratios are kept [-].
     at : float or None
-        Station at which to join, from 0 to N - 2, in place of the choice above.
+        Station at which to join, from 0 to N - 2 and rounded, in place of the choice above.
 
     Returns
     -------
@@ -183,7 +186,8 @@ def _joined(cylinder: GeneralizedCylinder, starts: FloatArray) -> _Joins:
         index = np.where(later, np.minimum(nearest, len(cylinder.directrix) - 2), 0)
         stations[outside] = index
         angles[outside], ratios[outside] = _in_plane(cylinder, starts[outside], index)
-    last = len(cylinder.directrix) - 2.0
+    # A run has two samples at least, also one that begins in the last plane.
+    last = len(cylinder.directrix) - 1.0 - LAST_PART
     return _Joins(np.minimum(stations, last), angles, ratios, inside)
 
 
@@ -257,8 +261,9 @@ def _begun_at(
     """Make runs (S, K, 3) begin at the starts: wait for the join, then fade out the offset from its plane."""
     index = np.searchsorted(stations, joins - 1e-12)
     who = np.arange(len(starts))
-    exact = stations[index] - joins < 1e-9
-    residual = np.where(exact[:, None], starts - runs[who, index], 0.0)
+    # Between stations, the plane that passes through the start itself was found: nothing to fade out.
+    projected = joins == stations[index]
+    residual = np.where((projected & (joins % 1.0 == 0.0))[:, None], starts - runs[who, index], 0.0)
     size = np.sqrt(np.einsum("ij,ij->i", residual, residual))
     reach = np.maximum(2.0 * size, JOIN_LENGTH * length)
     part = np.clip((gone[None, :] - gone[index][:, None]) / np.maximum(reach, 1e-12)[:, None], 0.0, 1.0)

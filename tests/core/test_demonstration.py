@@ -15,6 +15,7 @@ from gc_core import (
     encode,
 )
 from gc_core.demonstration import trim
+from tests.core.shapes import bundle
 
 T = np.linspace(0.0, 1.0, 11)
 P = np.outer(T, [0.3, 0.1, 0.0])
@@ -112,3 +113,9 @@ def test_trimming_leaves_the_demonstration_as_it_was() -> None:
     encode([demonstration])
 
     np.testing.assert_array_equal(demonstration.positions, before)
+
+
+def test_what_is_remembered_of_trimming_cannot_be_written_to() -> None:
+    part = trim(bundle(0, 1)[0])
+
+    assert not any(array.flags.writeable for array in (part.times, part.positions, part.kept))

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gc_core import TooFewSamplesError, encode, metrics, register, same_content
+from gc_core import TimesNotIncreasingError, TooFewSamplesError, encode, metrics, register, same_content
 from tests.core.shapes import bundle, seeds
 
 
@@ -84,3 +84,8 @@ def test_same_content_sees_a_changed_bit_and_a_changed_type() -> None:
     assert not same_content(one, {"a": (np.arange(3.0) + 1e-16 * np.arange(3), [1, 0]), "b": float("nan")})
     assert not same_content(np.arange(3), np.arange(3.0))
     assert same_content(encode(bundle(1)), encode(bundle(1)))
+
+
+def test_jerk_refuses_times_that_stand_still() -> None:
+    with pytest.raises(TimesNotIncreasingError):
+        metrics.jerk(np.eye(4, 3), np.array([0.0, 1.0, 1.0, 2.0]))

@@ -169,3 +169,26 @@ def test_a_correction_below_a_millimetre_is_no_rule() -> None:
 def test_the_same_rule_made_twice_has_the_same_content() -> None:
     assert same_content(lid(0.02), lid(0.02))
     assert not same_content(lid(0.02), lid(0.03))
+
+
+def test_a_rule_of_nothing_is_refused() -> None:
+    with pytest.raises(GcError):
+        Constraint.from_correction(np.zeros((0, 3)), np.zeros((0, 3)))
+
+
+def test_a_rule_cannot_be_written_to() -> None:
+    rule = Constraint(np.arange(3.0), np.zeros((3, 3)), np.zeros((3, 3)), np.zeros(3))
+
+    assert not any(a.flags.writeable for a in (rule.stations, rule.points, rule.normals, rule.lengths))
+
+
+def test_no_runs_are_constrained_to_no_runs() -> None:
+    cylinder = encode(bundle(0))
+    rule = Constraint.from_correction(cylinder.directrix, cylinder.directrix + 0.1)
+
+    assert constrain(reproduce(cylinder, np.zeros((0, 3))), [rule]).positions.shape == (0, 200, 3)
+
+
+def test_a_sample_between_samples_cannot_be_pulled() -> None:
+    with pytest.raises(GcError):
+        soft_correction(np.eye(4, 3), 1.5, np.ones(3), 0.1)

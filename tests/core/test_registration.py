@@ -173,3 +173,24 @@ def test_a_rotation_of_a_flat_layout_is_found_whole() -> None:
 
     np.testing.assert_allclose(register(source, source @ turn.T)(EVERYWHERE), EVERYWHERE @ turn.T, atol=1e-7)
     assert rotation(0).shape == turn.shape
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 6])
+@pytest.mark.parametrize("orientation", [None, np.array([1.0, 0.0, 0.0, 0.0])])
+def test_a_map_cannot_be_written_to(count: int, orientation: np.ndarray | None) -> None:
+    before, after = ([Landmark(place, orientation) for place in landmarks(seed, count)] for seed in (0, 1))
+    spline = register(before, after)
+
+    for array in (spline.centres, spline.weights, spline.linear, spline.origin, spline.image):
+        assert not array.flags.writeable
+
+
+def test_a_frame_spans_space() -> None:
+    assert register([frame(0)], [frame(1)]).rank == 3
+
+
+def test_places_may_be_given_as_lists() -> None:
+    spline = register(landmarks(0, 6), landmarks(1, 6))
+
+    np.testing.assert_array_equal(spline([[0, 0, 0]]), spline(np.zeros((1, 3))))
+    np.testing.assert_array_equal(spline.jacobian([[0, 0, 0]]), spline.jacobian(np.zeros((1, 3))))

@@ -219,3 +219,16 @@ def test_locate_answers_for_no_points_and_for_far_points() -> None:
 def test_what_cannot_be_run_is_refused(error: type[Exception], start: list[float], options: dict) -> None:
     with pytest.raises(error):
         reproduce(encode(bundle(0)), start, **options)
+
+
+@settings(max_examples=30, deadline=None)
+@given(seed=seeds, ratio=st.floats(0.0, 1.0), angle=st.floats(-4.0, 4.0), back=st.floats(0.0, 1.0))
+def test_a_run_from_the_last_slice_stays_there(seed: int, ratio: float, angle: float, back: float) -> None:
+    cylinder = encode(bundle(seed), stations=60)
+    earlier, last = (start_at(cylinder, ratio, angle, station) for station in (58, 59))
+    run = reproduce(cylinder, last + back * (earlier - last))
+
+    assert run.start_inside
+    assert len(run.positions) >= 2
+    assert cylinder.contains(run.positions).all()
+    assert (np.diff(run.times) > 0.0).all()
