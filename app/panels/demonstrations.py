@@ -24,7 +24,9 @@ class DemonstrationsPanel:
         self._rows = Rows(gui.add_folder(None), partial(DemonstrationRow, gui, actions))
 
     def draw(self, state: State) -> None:
-        """Follow the list."""
+        """Follow the list of what is kept; what is being drawn or pulled joins it at the release."""
+        if state.dragging is not None:
+            return
         for row in self._rows.fit(len(state.document.demonstrations)):
             row.draw(state)
 

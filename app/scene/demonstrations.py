@@ -32,7 +32,7 @@ class Demonstrations:
             name = f"/demonstrations/{len(self._lines)}"
             self._lines.append(_Demonstration(self._api, name, self._actions, self._clock))
         for i, line in enumerate(self._lines):
-            line.draw(shown[i] if i < len(shown) else None)
+            line.draw(shown[i] if i < len(shown) else None, state.dragging is not None)
 
 
 class _Demonstration:
@@ -42,23 +42,36 @@ class _Demonstration:
         self._actions, self._clock = actions, clock
         self._bound = False
         self._drawn: Shown | None = None
+        self._picked: Shown | None = None
 
-    def draw(self, shown: Shown | None) -> None:
-        drawn, self._drawn = self._drawn, shown
+    def draw(self, shown: Shown | None, dragging: bool) -> None:
+        if shown is not None and not _same(self._picked, shown) and not (dragging and self._picked):
+            self._draw_pick(shown)
+        if _same(self._drawn, shown):
+            return
+        self._drawn = shown
         if shown is None:
             self._pick.hide()
-            return
-        if drawn is not None and _same(drawn, shown):
-            return
-        positions = shown.demonstration.positions
-        handle = self._pick.show(*pick_tube(positions, PICK_RADIUS))
+            self._picked = None
+        else:
+            self._draw_line(shown)
+
+    def _draw_pick(self, shown: Shown) -> None:
+        """Invisible: what is dragged already need not be hit, so it waits for the release."""
+        self._picked = shown
+        handle = self._pick.show(*pick_tube(shown.demonstration.positions, PICK_RADIUS))
         if not self._bound:
             bind_pull(handle, self._actions, self._clock)
             self._bound = True
+
+    def _draw_line(self, shown: Shown) -> None:
+        positions = shown.demonstration.positions
         visible = thin_out(positions, MOST_POINTS)
         self._line.look(MUTED if shown.muted else DEMONSTRATION, THIN)
         self._line.show(dashes(visible) if shown.muted else segments(visible))
 
 
-def _same(one: Shown, other: Shown) -> bool:
+def _same(one: Shown | None, other: Shown | None) -> bool:
+    if one is None or other is None:
+        return one is other
     return one.demonstration is other.demonstration and one.muted == other.muted

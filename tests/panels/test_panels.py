@@ -98,6 +98,21 @@ def test_the_list_follows_the_demonstrations(bench: Bench) -> None:
     assert [e.uuid for e in again] == [e.uuid for e in rows]
 
 
+def test_the_list_holds_what_is_kept_and_not_what_is_being_drawn(bench: Bench) -> None:
+    bench.draw(state_of(taught(3)))
+    drawn = state_of(taught(4))
+
+    def listed() -> int:
+        folders = (e for e in bench.client.gui if e.kind == "Folder" and e.usable)
+        return sum(e.label.startswith("Reach ") for e in folders)
+
+    bench.draw(replace(drawn, dragging="/hand"))
+    before = listed()
+    bench.draw(drawn)
+
+    assert (before, listed()) == (3, 4)
+
+
 @pytest.mark.parametrize(
     ("option", "names"),
     [("Duplicate", ["Reach 1", "Reach 1 (copy)"]), ("Delete", [])],

@@ -117,6 +117,19 @@ def test_while_dragging_the_tube_is_coarse_and_its_faces_are_sent_once(stage: St
     assert stage.client.node("/tube").array("vertices").shape[0] == WHILE_DRAGGING[0] * WHILE_DRAGGING[1]
 
 
+def test_what_the_pointer_hits_of_a_pulled_line_follows_at_the_release(stage: Stage) -> None:
+    stage.draw(state())
+    pulled = preview(state(), np.array([0.0, 0.0, 0.05]))
+    stage.client.log.clear()
+    stage.draw(pulled)
+    drawn = {m["name"] for m in stage.sent() if m.get("name", "").startswith("/demonstrations/")}
+    stage.client.log.clear()
+    stage.draw(replace(pulled, dragging=None))
+    hit = {m["name"] for m in stage.sent() if m.get("name", "").startswith("/demonstrations/")}
+
+    assert (drawn, hit) == ({"/demonstrations/0/line"}, {"/demonstrations/0"})
+
+
 def test_nothing_is_added_or_removed_while_dragging(stage: Stage) -> None:
     stage.draw(state())
     stage.draw(preview(state(), np.array([0.0, 0.0, 0.01])))
