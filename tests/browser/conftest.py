@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import Browser
 
 from app.server import Options, Server, first_document
 from tests.browser.person import FIRST_SCREEN, SIZE, Person
@@ -16,10 +17,9 @@ from tests.support.chromium import ViserPage
 _numbers = itertools.count()
 
 Visit = Callable[..., Person]
-"""``visit(code="", server=None, fine=False)``: open the app, on a session or on one of its own, and wait
-for the first screen. Its pictures are coarse, and quickly drawn, unless asked to be fine."""
-COARSE_PICTURES = 0.5
-"""Pixels drawn for one of the page, to either side."""
+"""``visit(code="", server=None)``: open the app, and wait for the first screen."""
+DENSITY = 0.7
+"""Pixels that are drawn for one of the page, to either side: fewer are drawn sooner."""
 
 
 @contextlib.contextmanager
@@ -48,14 +48,33 @@ def code() -> str:
 def visit(request: pytest.FixtureRequest, open_page: Callable[..., ViserPage]) -> Iterator[Visit]:
     people: list[Person] = []
 
-    def open_app(code: str = "", server: Server | None = None, *, fine: bool = False) -> Person:
+    def open_app(code: str = "", server: Server | None = None) -> Person:
         at = server or request.getfixturevalue("server")
-        own = code or f"browser-story-{next(_numbers):04d}"
-        address = f"http://127.0.0.1:{at.port}/s/{own}"
-        person = Person(open_page(address if fine else f"{address}?fixedDpr={COARSE_PICTURES}", *SIZE))
-        people.append(person)
-        person.tab.wait_drawn(*FIRST_SCREEN)
-        return person
+        people.append(come(open_page(address(at, code), *SIZE)))
+        return people[-1]
 
     yield open_app
     assert [person.tab.faults for person in people] == [[] for _ in people]
+
+
+@pytest.fixture(scope="module")
+def guest(server: Server, chromium: Browser) -> Iterator[Person]:
+    """Somebody who stays for all stories of a module: each puts back what it changed."""
+    context = chromium.new_context(viewport={"width": SIZE[0], "height": SIZE[1]})
+    tab = ViserPage(context.new_page())
+    tab.page.goto(address(server))
+    yield come(tab)
+    context.close()
+    assert tab.faults == []
+
+
+def address(server: Server, code: str = "") -> str:
+    """Of a session, or of one that no other story has seen."""
+    own = code or f"browser-story-{next(_numbers):04d}"
+    return f"http://127.0.0.1:{server.port}/s/{own}?fixedDpr={DENSITY}"
+
+
+def come(tab: ViserPage) -> Person:
+    """Wait for the first screen."""
+    tab.wait_drawn(*FIRST_SCREEN)
+    return Person(tab)

@@ -99,11 +99,12 @@ class Person:
     # --- buttons --------------------------------------------------------------------------------------
 
     def pause(self) -> None:
-        """Press the space bar, and let the hand rest where it is in nobody's way."""
+        """Let the hand rest where it is in nobody's way, with the space bar and the field of the playhead."""
         tab = self.tab
-        tab.wait_until(lambda: tab.shows("Playing"))
-        tab.page.keyboard.press("Space")
-        tab.wait_until(lambda: tab.shows("Paused"))
+        if not tab.shows("Paused"):
+            tab.page.evaluate("() => document.activeElement.blur()")
+            tab.page.keyboard.press("Space")
+            tab.wait_until(lambda: tab.shows("Paused"))
         playhead = tab.page.locator("input:visible").last
         playhead.fill(f"{ASIDE}")
         playhead.press("Enter")
