@@ -1,9 +1,12 @@
-"""The playhead: pure functions on `Playback`."""
+"""The playhead: pure functions on `Playback`, and the one answer to where a run is at a time."""
 
 from dataclasses import replace
 from typing import Final
 
+import numpy as np
+
 from app.store import Playback
+from gc_core import Reproduction
 
 SPEEDS: Final = (0.25, 0.5, 1.0, 2.0)
 """Playback speeds that are offered."""
@@ -37,6 +40,12 @@ def play(playback: Playback, playing: bool) -> Playback:
 def seek(playback: Playback, time: float) -> Playback:
     """Move the playhead to a time within the reproduction [s]."""
     return replace(playback, time=min(max(time, 0.0), playback.duration))
+
+
+def station_at(reproduction: Reproduction, time: float) -> int:
+    """Station of the cylinder that a run has reached at a time of its own clock [s]."""
+    index = int(np.searchsorted(reproduction.times, time, side="right")) - 1
+    return round(float(reproduction.stations[max(index, 0)]))
 
 
 def with_duration(playback: Playback, duration: float) -> Playback:

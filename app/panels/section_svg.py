@@ -59,12 +59,6 @@ def section_svg(cylinder: GeneralizedCylinder, station: int, reproduction: Repro
     return "".join(parts)
 
 
-def station_at(reproduction: Reproduction, time: float) -> int:
-    """Station of the cylinder that a run has reached at a time of its own clock [s]."""
-    index = int(np.searchsorted(reproduction.times, time, side="right")) - 1
-    return round(float(reproduction.stations[max(index, 0)]))
-
-
 def ratio_at(reproduction: Reproduction, station: int) -> float | None:
     """How far off-centre a run passes a station; None where it does not pass it."""
     index = _index(reproduction, station)

@@ -6,7 +6,8 @@ import viser
 
 from app.binding import Changed, assign
 from app.panels import words
-from app.panels.section_svg import BLUE, MAGENTA, RED, section_svg, size, station_at
+from app.panels.section_svg import BLUE, MAGENTA, RED, section_svg, size
+from app.player import station_at
 from app.store import State
 
 EMPTY: Final = "There is no tube yet. Show the motion once, and its slices appear here."

@@ -14,7 +14,8 @@ from app.document import Document, FloatArray
 from app.model import Model
 from app.panels import words
 from app.panels.position_field import PositionField
-from app.panels.section_svg import ratio_at, station_at
+from app.panels.section_svg import ratio_at
+from app.player import station_at
 from app.store import State
 
 PLAY: Final = "Play this one"

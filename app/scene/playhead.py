@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from app import player
 from app.model import Model
 from app.store import Playback
 
@@ -13,9 +14,7 @@ def station_at(model: Model, playback: Playback) -> int | None:
     last = len(model.cylinder.directrix) - 1
     if playback.run >= len(model.runs):
         return min(int(np.searchsorted(model.cylinder.times, playback.time)), last)
-    played = model.runs[playback.run].reproduction
-    sample = min(int(np.searchsorted(played.times, playback.time)), len(played.times) - 1)
-    return min(int(played.stations[sample]), last)
+    return min(player.station_at(model.runs[playback.run].reproduction, playback.time), last)
 
 
 def time_of(model: Model, run: int, station: int) -> float | None:

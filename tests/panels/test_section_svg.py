@@ -7,7 +7,8 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from app.panels.section_svg import HEIGHT, WIDTH, ratio_at, section_svg, size, station_at
+from app.panels.section_svg import HEIGHT, WIDTH, ratio_at, section_svg, size
+from app.player import station_at
 from gc_core import encode, reproduce
 from tests.panels.desk import state_of, taught
 

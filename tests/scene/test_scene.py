@@ -10,6 +10,7 @@ import pytest
 from app.arm.protocol import Shortfall
 from app.document import Place, Shown
 from app.model import learn
+from app.player import station_at
 from app.scene.cylinder import AT_REST, WHILE_DRAGGING
 from app.store import State
 from tests.scene.conftest import Stage, document, preview, state
@@ -282,7 +283,7 @@ def test_the_section_is_that_of_the_playhead(stage: Stage) -> None:
     late = replace(state(), playback=replace(state().playback, time=3.0))
     stage.draw(late)
     run = late.model.runs[0].reproduction
-    station = round(float(run.stations[np.searchsorted(run.times, 3.0)]))
+    station = station_at(run, 3.0)  # the same as in the panel with the slice
     ring = stage.client.node("/section").array("points", -1, 2, 3)[:, 0]
 
     np.testing.assert_allclose(ring, late.model.cylinder.surface()[station], atol=1e-6)
