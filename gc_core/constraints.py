@@ -19,6 +19,9 @@ LEAST_CORRECTION = 0.001
 FADE_LENGTH = 0.08
 """Beyond the corrected span, what a run was moved in excess of the teacher fades out over this length [m]."""
 
+ALLOWED = 1e-13
+"""A place this little behind a plane is on it: rounding [m]."""
+
 CORNERS = 3
 """In space, the nearest point of an intersection of half-spaces lies on at most this many planes."""
 
@@ -225,4 +228,4 @@ def nearest_allowed(places: FloatArray, points: FloatArray, normals: FloatArray)
 def _cost(step: FloatArray, offset: FloatArray, normals: FloatArray) -> FloatArray:
     """Length of steps (P, 3), after any violation: a step that obeys all rules is always cheaper."""
     violation = np.maximum(offset - np.einsum("pci,pi->pc", normals, step), 0.0).max(axis=1)
-    return np.linalg.norm(step, axis=1) + np.where(violation > 1e-10, 1e6 * (1.0 + violation), 0.0)
+    return np.linalg.norm(step, axis=1) + np.where(violation > ALLOWED, 1e6 * (1.0 + violation), 0.0)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from gc_core.alignment import Alignment
@@ -14,6 +16,26 @@ KNOTS = 150
 
 SEARCH = 0.2
 """A crossing further along than this part of the demonstration belongs to another station [-]."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Lines:
+    """All n demonstrations, one behind the other in one array: one search for all costs least."""
+
+    path: FloatArray
+    """(T, 3) places [m]."""
+    ends: IntArray
+    """(n, 2) first and last sample of each."""
+    knots: IntArray
+    """(K,) samples at which they are searched."""
+    owner: IntArray
+    """(K,) demonstration of each knot."""
+    gone: FloatArray
+    """(K,) length along its demonstration [m]."""
+    lengths: FloatArray
+    """(n,) of the demonstrations [m]."""
+    wanted: FloatArray
+    """(n, N) length along a demonstration up to the place that corresponds to a station [m]."""
 
 
 def effective_points(
@@ -41,44 +63,59 @@ def effective_points(
         Where a demonstration does not cross the plane near its station.
     """
     offsets = np.einsum("ij,ij->i", alignment.directrix, normals)
-    found = [
-        _cut(
-            demonstration.positions, _samples(demonstration, moments), alignment.aligned[j], normals, offsets
-        )
-        for j, (demonstration, moments) in enumerate(zip(demonstrations, alignment.moments, strict=True))
-    ]
-    points = np.stack([points for points, _ in found], axis=1)
+    lines = _lines(demonstrations, alignment)
+    points = _ends(lines, alignment.aligned, normals, offsets)
+    station, knot = _nearest_crossings(lines, normals, offsets)
+    whose = lines.owner[knot]
+    low, high = lines.knots[knot], lines.knots[knot + 1]
+    points[station, whose] = _refined(lines.path, low, high, normals[station], offsets[station])
+    missed = np.ones(points.shape[:2], dtype=bool)
+    missed[station, whose] = False
     # Interpolation leaves a rounding error, projection none: all points are put exactly into the plane.
-    height = np.einsum("ijk,ik->ij", points, normals) - offsets[:, None]
-    return points - height[..., None] * normals[:, None, :], np.stack([missed for _, missed in found], axis=1)
+    height = (points @ normals[:, :, None])[..., 0] - offsets[:, None]
+    return points - height[..., None] * normals[:, None, :], missed
 
 
-def _samples(demonstration: Trimmed, moments: FloatArray) -> FloatArray:
-    return np.interp(moments, demonstration.times, np.arange(len(demonstration.times), dtype=np.float64))
+def _lines(demonstrations: tuple[Trimmed, ...], alignment: Alignment) -> _Lines:
+    counts = np.array([len(demonstration.positions) for demonstration in demonstrations])
+    begins = np.cumsum(counts) - counts
+    chosen: list[IntArray] = []
+    gone: list[FloatArray] = []
+    wanted: list[FloatArray] = []
+    for demonstration, moments in zip(demonstrations, alignment.moments, strict=True):
+        last = len(demonstration.positions) - 1
+        knots = np.asarray([*range(0, last, -(-last // KNOTS)), last], dtype=np.intp)
+        chosen.append(knots)
+        gone.append(arc_length(demonstration.positions[knots]))
+        sample = np.interp(moments, demonstration.times, np.arange(last + 1.0))
+        wanted.append(np.interp(sample, knots, gone[-1]))
+    owner = np.repeat(np.arange(len(counts)), [len(knots) for knots in chosen])
+    return _Lines(
+        path=np.concatenate([demonstration.positions for demonstration in demonstrations]),
+        ends=np.stack((begins, begins + counts - 1), axis=1),
+        knots=np.concatenate(chosen) + begins[owner],
+        owner=owner,
+        gone=np.concatenate(gone),
+        lengths=np.array([length[-1] for length in gone]),
+        wanted=np.array(wanted),
+    )
 
 
-def _cut(
-    path: FloatArray, samples: FloatArray, aligned: FloatArray, normals: FloatArray, offsets: FloatArray
-) -> tuple[FloatArray, BoolArray]:
-    """Crossings (N, 3) of one polyline (T, 3) with the planes, and which are missed."""
-    stride = -(-(len(path) - 1) // KNOTS)
-    knots = np.append(np.arange(0, len(path) - 1, stride), len(path) - 1)
-    gone = arc_length(path[knots])
-    wanted = np.interp(samples, knots, gone)
-    ahead = normals @ path[knots].T > offsets[:, None]
-    station, knot = np.divmod(np.flatnonzero(ahead[:, 1:] & ~ahead[:, :-1]), len(knots) - 1)
-    away = np.abs(0.5 * (gone[knot] + gone[knot + 1]) - wanted[station])
-    near = away <= SEARCH * gone[-1]
-    knot, station, away = knot[near], station[near], away[near]
-    # Sorted by station, then nearest first: the first of each station is the one to take.
-    order = np.lexsort((away, station))
-    taken, first = np.unique(station[order], return_index=True)
-    best = knot[order[first]]
-    points = _ends(path, aligned, normals, offsets, part=wanted / gone[-1])
-    points[taken] = _refined(path, knots[best], knots[best + 1], normals[taken], offsets[taken])
-    missed = np.ones(len(normals), dtype=bool)
-    missed[taken] = False
-    return points, missed
+def _nearest_crossings(lines: _Lines, normals: FloatArray, offsets: FloatArray) -> tuple[IntArray, IntArray]:
+    """Stations (C,) and the knots before a crossing (C,): at most one for each demonstration and station."""
+    behind = normals @ lines.path[lines.knots].T <= offsets[:, None]
+    forward = behind[:, :-1] > behind[:, 1:]
+    forward[:, np.flatnonzero(np.diff(lines.owner))] = False
+    station, knot = np.divmod(np.flatnonzero(forward), forward.shape[1])
+    whose = lines.owner[knot]
+    away = np.abs(0.5 * (lines.gone[knot] + lines.gone[knot + 1]) - lines.wanted[whose, station])
+    near = np.flatnonzero(away <= SEARCH * lines.lengths[whose])
+    station, knot, away = station[near], knot[near], away[near]
+    place = station * len(lines.lengths) + whose[near]
+    # Sorted by station and demonstration, then nearest first: the first of each is the one to take.
+    order = np.lexsort((away, place))
+    taken = order[np.flatnonzero(np.diff(place[order], prepend=-1))]
+    return station[taken], knot[taken]
 
 
 def _refined(
@@ -88,22 +125,21 @@ def _refined(
     while int((high - low).max(initial=0)) > 1:
         middle = (low + high) // 2
         ahead = np.einsum("ij,ij->i", path[middle], normals) > offsets
-        wide = high - low > 1
-        low, high = np.where(wide & ~ahead, middle, low), np.where(wide & ahead, middle, high)
+        # A bracket of one piece has its middle at its low end, which is not ahead.
+        low, high = np.where(ahead, low, middle), np.where(ahead, middle, high)
     before = offsets - np.einsum("ij,ij->i", path[low], normals)
     step = np.einsum("ij,ij->i", path[high] - path[low], normals)
     part = np.clip(before / np.where(step > 0.0, step, 1.0), 0.0, 1.0)[:, None]
     return path[low] * (1.0 - part) + path[high] * part
 
 
-def _ends(
-    path: FloatArray, aligned: FloatArray, normals: FloatArray, offsets: FloatArray, *, part: FloatArray
-) -> FloatArray:
-    """Places (N, 3) to use where a plane is missed: the end that it lies beyond, else the aligned place.
-
-    `part` (N,) says how far along the demonstration the aligned places are, from 0 to 1.
-    """
-    ahead = np.einsum("ij,ij->i", aligned, normals) > offsets
-    starts_late = (ahead & (part <= SEARCH))[:, None]
-    ends_early = (~ahead & (part >= 1.0 - SEARCH))[:, None]
-    return np.where(starts_late, path[0], np.where(ends_early, path[-1], aligned))
+def _ends(lines: _Lines, aligned: FloatArray, normals: FloatArray, offsets: FloatArray) -> FloatArray:
+    """Places (N, n, 3) where a plane is missed: the end that it lies beyond, else the aligned place."""
+    places = np.swapaxes(aligned, 0, 1)
+    ahead = (places @ normals[:, :, None])[..., 0] > offsets[:, None]
+    # Only a motion that returns to one place at every knot has no length.
+    part = (lines.wanted / np.maximum(lines.lengths, np.finfo(float).tiny)[:, None]).T
+    starts_late = (ahead & (part <= SEARCH))[..., None]
+    ends_early = (~ahead & (part >= 1.0 - SEARCH))[..., None]
+    first, last = lines.path[lines.ends[:, 0]], lines.path[lines.ends[:, 1]]
+    return np.where(starts_late, first, np.where(ends_early, last, places))

@@ -120,16 +120,19 @@ def loop_radii(loops: FloatArray, count: int) -> FloatArray:
     rays = np.ceil(np.maximum(angle, angle + turn)).astype(np.intp).ravel() - first
     edge = np.repeat(np.arange(rays.size), rays)
     ray = (first - np.cumsum(rays) + rays)[edge] + np.arange(edge.size)
-    ray %= count
+    ray = np.where(ray < 0, ray + count, ray)
     along_x, along_y = _next(x) - x, _next(y) - y
+    size = np.abs(along_x) + np.abs(along_y)
+    scale = 1.0 / np.maximum(size, 1e-300)
+    along_x, along_y = along_x * scale, along_y * scale
     cross = (x * along_y - y * along_x).ravel()[edge]
     square = x * x + y * y
     far = np.sqrt(np.maximum(square, _next(square))).ravel()[edge]
-    rounding = 1e-12 * np.hypot(along_x, along_y).ravel()[edge]
     angles = vertex_angles(count)
     slant = np.cos(angles)[ray] * along_y.ravel()[edge] - np.sin(angles)[ray] * along_x.ravel()[edge]
     # An edge that points at the origin is met at its far end.
-    reach = np.where(np.abs(slant) <= rounding, far, cross / np.where(slant == 0.0, 1.0, slant))
+    parallel = np.abs(slant) <= 1e-12
+    reach = np.where(parallel, far, cross / np.where(parallel, 1.0, slant))
     radii = np.zeros(len(loops) * count)
     np.maximum.at(radii, edge // loops.shape[1] * count + ray, np.clip(reach, 0.0, far))
     return radii.reshape(len(loops), count)

@@ -122,13 +122,13 @@ def closed_spline(points: FloatArray, count: int, half_width: float) -> FloatArr
     corners, n_corners = _corners(points)
     lacking = _lacking_width(points, half_width)
     round_ = n_corners > 2
-    loops = np.zeros((len(points), CURVE_SAMPLES, 2))
+    loops = np.zeros((2, len(points), CURVE_SAMPLES))
     for n in np.unique(n_corners[round_]):
         rows = np.flatnonzero(n_corners == n)
         curve = _spline_loops(np.take_along_axis(points[rows], corners[rows, :n, None], axis=1))
-        loops[rows, : curve.shape[1]] = curve
-        loops[rows, curve.shape[1] :] = curve[:, -1:]
-    radii = loop_radii(loops, count)
+        loops[:, rows, : curve.shape[2]] = curve
+        loops[:, rows, curve.shape[2] :] = curve[:, :, -1:]
+    radii = loop_radii(np.moveaxis(loops, 0, 2), count)
     thin = np.flatnonzero(~round_ | (lacking > 0.0))
     if thin.size:
         rounded = loop_radii(_thickened(points[thin], corners[thin], lacking[thin]), count)
@@ -192,21 +192,24 @@ def _directions() -> FloatArray:
 
 
 def _spline_loops(corners: FloatArray) -> FloatArray:
-    """Sample the periodic centripetal cubic through corners (K, n, 2): (K, P, 2)."""
+    """Sample the periodic centripetal cubic through corners (K, n, 2): x and y (2, K, P)."""
     following = np.roll(corners, -1, axis=1)
     chord = following - corners
     step = np.sqrt(np.sqrt(np.einsum("ijk,ijk->ij", chord, chord)))
     step = np.maximum(step, 1e-3 * step.max(axis=1, keepdims=True))
     bend = _periodic_curvatures(chord / step[..., None], step)
-    per_piece = CURVE_SAMPLES // corners.shape[1]
-    part = np.linspace(0.0, 1.0, per_piece, endpoint=False)[None, None, :, None]
+    square = (step**2)[..., None]
+    pieces = np.stack((corners, following, square * bend, square * np.roll(bend, -1, axis=1)))
+    curve = np.moveaxis(pieces, 0, 3) @ _piece_basis(CURVE_SAMPLES // corners.shape[1])
+    return np.moveaxis(curve, 2, 0).reshape(2, len(corners), -1)
+
+
+@lru_cache(maxsize=32)
+def _piece_basis(samples: int) -> FloatArray:
+    """Shares (4, samples) of a cubic piece's ends, and of their second derivatives by its step squared."""
+    part = np.linspace(0.0, 1.0, samples, endpoint=False)
     rest = 1.0 - part
-    square = (step**2)[:, :, None, None] / 6.0
-    straight = rest * corners[:, :, None, :] + part * following[:, :, None, :]
-    curved = (rest**3 - rest) * bend[:, :, None, :] + (part**3 - part) * np.roll(bend, -1, axis=1)[
-        :, :, None, :
-    ]
-    return (straight + square * curved).reshape(len(corners), -1, 2)
+    return read_only(np.stack((rest, part, (rest**3 - rest) / 6.0, (part**3 - part) / 6.0)))
 
 
 def _periodic_curvatures(slope: FloatArray, step: FloatArray) -> FloatArray:

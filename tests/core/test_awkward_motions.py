@@ -30,12 +30,14 @@ def noisy() -> list[Demonstration]:
 
 
 TURN = np.linspace(0.0, 2.0 * np.pi, 300)
+STIR = 0.1 * np.stack((np.cos(TURN), np.sin(TURN)))[:, 30 * (np.arange(1501) % 10)]
 THERE_AND_BACK = np.abs(np.linspace(-1.0, 1.0, 301))[:, None] * [0.3, 0.0, 0.0]
 WALK = np.cumsum(np.random.default_rng(0).normal(size=(50, 3)), axis=0)
 MOTIONS = {
     "two samples": side_by_side(np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])),
     "a closed loop": side_by_side(0.2 * np.stack((np.cos(TURN), np.sin(TURN), 0.0 * TURN), axis=1)),
     "there and back": side_by_side(THERE_AND_BACK),
+    "stirring in step with the search": side_by_side(np.stack((*STIR, 0.0 * STIR[0]), axis=1)),
     "a random walk": side_by_side(WALK),
     "every sample held ten times": side_by_side(np.repeat(bundle(2, 1)[0].positions, 10, axis=0)),
     "a sensor's noise": noisy(),

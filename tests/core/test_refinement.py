@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from gc_core import Constraint, GcError, constrain, encode, reproduce, same_content, soft_correction
@@ -90,6 +90,7 @@ def test_no_rules_change_nothing() -> None:
 
 @settings(deadline=None)
 @given(height=st.floats(-0.05, 0.05), start=st.tuples(st.floats(-0.05, 0.05), st.floats(-0.05, 0.09)))
+@example(height=0.0, start=(0.0, 1e-10))
 def test_no_sample_is_behind_a_plane_afterwards(height: float, start: tuple[float, float]) -> None:
     rule = lid(height)
     run = constrain(reproduce(TUBE, (0.0, *start)), [rule])
