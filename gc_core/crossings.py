@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gc_core.alignment import Alignment
-from gc_core.arrays import BoolArray, FloatArray, IntArray
+from gc_core.arrays import BoolArray, FloatArray, IntArray, interpolated
 from gc_core.demonstration import Trimmed
 from gc_core.frames import arc_length
 
@@ -84,11 +84,11 @@ def _lines(demonstrations: tuple[Trimmed, ...], alignment: Alignment) -> _Lines:
     wanted: list[FloatArray] = []
     for demonstration, moments in zip(demonstrations, alignment.moments, strict=True):
         last = len(demonstration.positions) - 1
-        knots = np.asarray([*range(0, last, -(-last // KNOTS)), last], dtype=np.intp)
+        knots: IntArray = np.array([*range(0, last, -(-last // KNOTS)), last], dtype=np.intp)
         chosen.append(knots)
         gone.append(arc_length(demonstration.positions[knots]))
-        sample = np.interp(moments, demonstration.times, np.arange(last + 1.0))
-        wanted.append(np.interp(sample, knots, gone[-1]))
+        sample = interpolated(moments, demonstration.times, np.arange(last + 1.0))
+        wanted.append(interpolated(sample, knots.astype(np.float64), gone[-1]))
     owner = np.repeat(np.arange(len(counts)), [len(knots) for knots in chosen])
     return _Lines(
         path=np.concatenate([demonstration.positions for demonstration in demonstrations]),
