@@ -78,6 +78,10 @@ class Actions(Protocol):
         """Move the hand, and the start of the next demonstration, without recording."""
         ...
 
+    def nudge_hand(self, by: FloatArray) -> None:
+        """Move the hand by a little (3,) [m], without recording."""
+        ...
+
     def toggle_gripper(self) -> None:
         """Open or close the hand; recorded while it is pulled."""
         ...

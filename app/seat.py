@@ -58,6 +58,10 @@ class Seat:
         """See `Actions.move_hand`."""
         self._post(lambda desk, now: desk.move_hand(position, now))
 
+    def nudge_hand(self, by: FloatArray) -> None:
+        """See `Actions.nudge_hand`."""
+        self._post(lambda desk, now: desk.move_hand(desk.state().hand.position + by, now))
+
     def toggle_gripper(self) -> None:
         """See `Actions.toggle_gripper`."""
         self._post(lambda desk, _: desk.toggle_gripper())

@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Sequence, Set
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 from typing import Final
 
@@ -117,7 +118,13 @@ class Server:
         try:
             session = self._session(code)
         except GcError as error:
-            client.gui.add_markdown(f"**This page cannot be opened.** {error}")
+            client.gui.add_markdown(f"**This page cannot be opened.** {escape(str(error))}")
+            return
+        except Exception:  # the end of a thread: nobody else would tell the person
+            _log.exception("session %s cannot be opened", code)
+            client.gui.add_markdown(
+                "**This page cannot be opened** because of a fault in the program. What was saved is kept."
+            )
             return
         session.attach(client)
 
@@ -137,13 +144,15 @@ class Server:
             return session
 
     def _refused(self, client_id: int, name: str, size: int) -> None:
-        limit = web.UPLOAD_LIMIT >> 20
-        for session in tuple(self._sessions.values()):
-            session.tell(
-                client_id,
-                f"{name} has {size / 2**20:.0f} MB; a recording may have up to {limit} MB. Leave out "
-                "what does not belong to the motion, or save every tenth sample.",
+        limit = web.UPLOAD_LIMIT
+        words = f"{name} was not taken: other files are still on their way. Add it when they are there."
+        if size > limit:
+            words = (
+                f"{name} has {size / 2**20:.0f} MB; a recording may have up to {limit >> 20} MB. Leave out "
+                "what does not belong to the motion, or save every tenth sample."
             )
+        for session in tuple(self._sessions.values()):
+            session.tell(client_id, words)
 
     def _present(self) -> Set[int]:
         return self._viser.get_clients().keys()
@@ -161,7 +170,10 @@ class Server:
                 ]
                 forgotten = [self._sessions.pop(code) for code in gone]
                 for session in forgotten:  # saved before anybody may open it again
-                    session.close()
+                    try:
+                        session.close()
+                    except Exception:  # the others must be swept all the same
+                        _log.exception("session %s did not close", session.code)
 
 
 def stop_signal() -> threading.Event:

@@ -63,10 +63,15 @@ class Session:
         self.empty_since: float | None = time.monotonic()
         self._workshop = workshop
         self._arm = workshop.make_arm()
-        self._desk = Desk(document, self._arm)
+        try:
+            self._desk = Desk(document, self._arm)
+        except BaseException:
+            self._arm.close()
+            raise
         self._viewers: dict[int, Viewer] = {}
         self._works: int | None = None
         self._planned: tuple[object, int] | None = None
+        self._logged = ""
         self._time = self._touched = self._save_after = self.clock()
         self._writing = threading.Lock()
         self._actor = Actor(tick=self._tick, draw=self._draw, report=self._report, name=f"session-{code}")
@@ -106,8 +111,8 @@ class Session:
     def close(self) -> None:
         """Finish, save and stop."""
         self._actor.post(self._save_now)
+        self._actor.post(self._arm.close)  # there, so that nobody else gets it while it is still used
         self._actor.close()
-        self._arm.close()
 
     def _attach(self, client: viser.ClientHandle) -> None:
         self.empty_since = None
@@ -277,7 +282,9 @@ class Session:
         if isinstance(error, GcError):
             self._desk.say(str(error), warning=True)
         else:
-            _log.error("session %s", self.code, exc_info=error)
+            if repr(error) != self._logged:  # a drawing that fails, fails at every tick
+                _log.error("session %s", self.code, exc_info=error)
+            self._logged = repr(error)
             self._desk.say(
                 "Something went wrong in the program, not in what you did. Your work is safe; go on, or "
                 "reload the page if something looks wrong.",

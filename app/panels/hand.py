@@ -22,7 +22,6 @@ class HandPanel:
 
     def __init__(self, gui: viser.GuiApi, actions: Actions) -> None:
         self._actions = actions
-        self._at = np.zeros(3)
         self._position = PositionField(
             gui,
             "Hand [cm]",
@@ -36,12 +35,11 @@ class HandPanel:
 
     def draw(self, state: State) -> None:
         """Show where the hand is."""
-        self._at = state.hand.position
         self._position.draw(state)
         self._gripper.draw(state)
 
     def _jog(self, step: float, axis: int) -> None:
-        self._actions.move_hand(self._at + step * np.eye(3)[axis])
+        self._actions.nudge_hand(step * np.eye(3)[axis])
 
 
 def _gripper(gui: viser.GuiApi, actions: Actions) -> Binding[bool]:
