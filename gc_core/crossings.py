@@ -87,7 +87,7 @@ def _lines(demonstrations: tuple[Trimmed, ...], alignment: Alignment) -> _Lines:
         knots: IntArray = np.array([*range(0, last, -(-last // KNOTS)), last], dtype=np.intp)
         chosen.append(knots)
         gone.append(arc_length(demonstration.positions[knots]))
-        sample = interpolated(moments, demonstration.times, np.arange(last + 1.0))
+        sample = interpolated(moments, demonstration.times, np.arange(last + 1, dtype=np.float64))
         wanted.append(interpolated(sample, knots.astype(np.float64), gone[-1]))
     owner = np.repeat(np.arange(len(counts)), [len(knots) for knots in chosen])
     return _Lines(
