@@ -128,11 +128,14 @@ class Desk:
         self.say("There is nothing to redo." if name is None else f"Done again: {name}.")
 
     def open(self, document: Document, now: float) -> None:
-        """Put another skill on the desk; can be undone."""
+        """Put another skill on the desk; can be undone. In an empty one the hand goes home."""
         self.let_go(now)
         self.store.replace(document, f"open {document.title}", now=now)
         self.playback = Playback(playing=bool(document.demonstrations))
-        self._driver.lead()
+        if document.demonstrations:
+            self._driver.lead()
+        else:
+            self._driver.released(self._driver.hand, self._arm.home, now)
         self.say(document.about)
 
     def look(self, **changes: Any) -> None:
