@@ -291,13 +291,7 @@ class Desk:
     # --- time --------------------------------------------------------------------------
 
     def tick(self, now: float, dt: float) -> bool:
-        """Move on what moves by itself.
-
-        Returns
-        -------
-        bool
-            Whether something still moves.
-        """
+        """Move on what moves by itself; returns whether something still moves."""
         held = self._held
         if held is not None and held.ends is not None and now >= held.ends:
             self.let_go(now)

@@ -151,7 +151,7 @@ def continued(part: Demonstration, cylinder: GeneralizedCylinder, station: int) 
     """Continue a drawn part to the end of the cylinder by the ratio rule from a station on."""
     if station >= len(cylinder.directrix) - 2:
         return part
-    rest = reproduce(cylinder, part.positions[-1], at=station)
+    rest = reproduce(cylinder, part.positions[-1], at=station, outside="boundary")
     times = part.times[-1] + rest.times[1:] - rest.times[0]
     return Demonstration(
         np.concatenate([part.times, times]), np.concatenate([part.positions, rest.positions[1:]])

@@ -199,7 +199,7 @@ def _run(
     former: Run | None,
 ) -> Run:
     if former is None or not np.array_equal(start, former.start):
-        free = reproduce(cylinder, start)
+        free = reproduce(cylinder, start, outside="boundary")
         return Run(start, free, constrain(free, constraints), constraints)
     if former.constraints is constraints:
         return former

@@ -6,7 +6,7 @@ at the start itself, wherever that is.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,6 +19,11 @@ from gc_core.radius import bins, chord_radius
 
 LAWS = ("fixed", "convergent")
 """How the ratio goes on: kept, or eased to a final value at the end."""
+
+OUTSIDE = ("keep", "boundary", "directrix")
+"""What a start outside of the tube does: keep its ratio, or be led to the boundary or the middle."""
+
+_HIGHEST_RATIO = {"keep": float("inf"), "boundary": 1.0, "directrix": 0.0}
 
 LATER = 0.05
 """A start joins a later station only when it lies beyond this part of the directrix [-]."""
@@ -75,6 +80,7 @@ def reproduce(
     law: str = "fixed",
     final_ratio: float = 0.0,
     at: float | None = None,
+    outside: str = "keep",
 ) -> Reproduction:
     """Run the skill from a new start.
 
@@ -94,6 +100,10 @@ def reproduce(
         For "convergent": ratio at the end, at least 0; smaller ratios are kept [-].
     at : float or None
         Station at which to join, from 0 to N - 2 and rounded, in place of the choice above.
+    outside : {"keep", "boundary", "directrix"}
+        What starts outside of the tube do: keep their ratio, which leads far away where the first slice is
+        narrow and a later one wide; or be led smoothly to the boundary or to the directrix, over a
+        tenth of the length or twice the way that is to be made up.
 
     Returns
     -------
@@ -119,11 +129,15 @@ def reproduce(
     """
     if law not in LAWS:
         raise UnknownOptionError("law", law, LAWS)
+    if outside not in OUTSIDE:
+        raise UnknownOptionError("outside", outside, OUTSIDE)
     if not 0.0 <= final_ratio < np.inf:
         raise InvalidSettingError("final_ratio", final_ratio, "a ratio of at least 0")
     single = np.ndim(start) == 1
     starts = finite(start, "start", (3,))[None] if single else finite(start, "start", (None, 3))
     joins = _joined_at(cylinder, starts, at) if at is not None else _joined(cylinder, starts)
+    led = ~joins.inside & (joins.ratios > _HIGHEST_RATIO[outside])
+    joins = replace(joins, ratios=np.where(led, _HIGHEST_RATIO[outside], joins.ratios))
     first = float(joins.stations.min()) if len(starts) else 0.0
     stations = np.concatenate(([first], np.arange(int(first) + 1.0, len(cylinder.directrix))))
     gone = np.interp(stations, np.arange(len(cylinder.directrix)), cylinder.arc_length)
@@ -133,6 +147,8 @@ def reproduce(
     positions = _begun_at(
         starts, runs, stations, joins.stations, gone=gone, length=float(cylinder.arc_length[-1])
     )
+    if led.any():
+        ratios[led] = _ratios_of(cylinder, positions[led], stations)
     return _reproduction(cylinder, stations, positions, ratios, inside=joins.inside, law=law, single=single)
 
 
@@ -212,6 +228,12 @@ def _in_plane(
         cylinder.radii[index, before], cylinder.radii[index, (before + 1) % count], part, count
     )
     return angles, np.hypot(local[:, 1], local[:, 2]) / edge
+
+
+def _ratios_of(cylinder: GeneralizedCylinder, positions: FloatArray, stations: FloatArray) -> FloatArray:
+    """Ratios (S, K) of positions (S, K, 3) in the planes of the stations (K,)."""
+    index = np.tile(np.rint(stations).astype(np.intp), len(positions))
+    return _in_plane(cylinder, positions.reshape(-1, 3), index)[1].reshape(positions.shape[:2])
 
 
 def _ratios(

@@ -232,3 +232,31 @@ def test_a_run_from_the_last_slice_stays_there(seed: int, ratio: float, angle: f
     assert len(run.positions) >= 2
     assert cylinder.contains(run.positions).all()
     assert (np.diff(run.times) > 0.0).all()
+
+
+@pytest.mark.parametrize(("outside", "end"), [("boundary", 1.0), ("directrix", 0.0)])
+def test_a_start_outside_of_a_narrow_slice_is_led_and_not_flung_away(outside: str, end: float) -> None:
+    narrow = np.linspace(0.0, 1.0, 80)[:, None]  # all demonstrations begin in one point
+    demonstrations = [
+        Demonstration(
+            3.0 * narrow[:, 0],
+            np.hstack([narrow, 0.1 * narrow * np.cos(turn), 0.1 * narrow * np.sin(turn)]),
+        )
+        for turn in (0.0, 2.0, 4.0)
+    ]
+    cylinder = encode(demonstrations)
+    start = np.array([-0.005, 0.05, 0.02])
+
+    run = reproduce(cylinder, start, outside=outside)
+
+    away = np.linalg.norm(run.positions - cylinder.directrix, axis=1)
+    assert not run.start_inside
+    np.testing.assert_array_equal(run.positions[0], start)
+    assert np.all(away <= np.linalg.norm(start - cylinder.directrix[0]) + cylinder.radii.max(axis=1))
+    assert run.ratios[0] > 1.0
+    np.testing.assert_allclose(run.ratios[-1], end, atol=1e-6)
+
+
+def test_a_policy_for_starts_outside_must_exist() -> None:
+    with pytest.raises(UnknownOptionError, match="boundary"):
+        reproduce(encode(bundle(0)), (0.0, 0.0, 0.0), outside="nowhere")
