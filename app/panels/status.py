@@ -14,7 +14,7 @@ RECORDING: Final = "&#9679; Recording. Let go when the motion is done."
 
 
 class StatusPanel:
-    """Recording, a message, a warning, or what was learned."""
+    """Why the hand cannot follow, recording, a message, or what was learned."""
 
     def __init__(self, gui: viser.GuiApi) -> None:
         self._line = gui.add_html("")
@@ -28,7 +28,7 @@ class StatusPanel:
 
 def status(state: State) -> str:
     """Build the line as HTML, two lines high so that the tabs stay where they are; text is escaped."""
-    if state.hand.recording is not None:
+    if state.hand.recording is not None and state.hand.shortfall is None:
         line = words.note(RECORDING, strong=True, color=RED)
     else:
         # The lesson shows what the skill is about; here would be the same sentence again.
