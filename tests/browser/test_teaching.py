@@ -13,6 +13,10 @@ pytestmark = pytest.mark.browser
 
 GOAL = "/landmarks/goal"
 HAND = "/hand"
+LEFT = 290.0
+"""Near the left edge of the 3D canvas [px]."""
+HOME = np.array([0.0098, -0.4998, 0.2500])
+"""Where the hand of the resting arm is [m]."""
 CLOSE = 0.02
 """How near to the hand a demonstration begins, and to the ball it ends [m]."""
 
@@ -21,7 +25,7 @@ def empty_table(visit: Visit) -> Person:
     person = visit()
     person.tab.press("Teach your own")
     person.tab.wait_until(lambda: not any(name.startswith("/demonstrations") for name in person.work()))
-    person.wait_still()
+    assert goes_back_to(person, HOME)  # wherever the playback had brought the hand
     return person
 
 
@@ -43,9 +47,11 @@ def goes_back_to(person: Person, place: FloatArray) -> bool:
 def type_hand(person: Person, *coordinates: float) -> None:
     """Put the hand somewhere by its number fields [cm]."""
     fields = person.tab.page.locator("input:visible")
-    shown = [f"{v:.1f}" for v in 100.0 * person.tab.position(HAND)]
-    values = [fields.nth(i).input_value() for i in range(fields.count())]
-    first = values.index(shown[0])
+    values = fields.evaluate_all("all => all.map(field => parseFloat(field.value))")
+    shown = np.lib.stride_tricks.sliding_window_view(np.array(values, dtype=float), 3)
+    off = np.nan_to_num(np.abs(shown - 100.0 * person.tab.position(HAND)).max(axis=1), nan=np.inf)
+    first = int(np.argmin(off))
+    assert off[first] < 0.06  # of what is shown rounded to millimetres
     for axis, value in enumerate(coordinates):
         fields.nth(first + axis).fill(f"{value}")
         fields.nth(first + axis).press("Enter")
@@ -65,7 +71,7 @@ def test_three_demonstrations_from_three_places_lead_to_the_ball(visit: Visit) -
     goal = tab.position(GOAL)
     starts = [pull_the_hand_to_the_ball(person, 0)]
     assert goes_back_to(person, starts[0])
-    person.drag(tab.pixel(HAND), (70.0, -20.0), button="right")
+    person.drag(tab.pixel(HAND), (-70.0, -30.0), button="right")
     tab.wait_until(lambda: np.linalg.norm(tab.position(HAND) - starts[0]) > 0.05)
     person.wait_still()
     starts.append(pull_the_hand_to_the_ball(person, 1))
@@ -85,16 +91,31 @@ def test_three_demonstrations_from_three_places_lead_to_the_ball(visit: Visit) -
     assert np.linalg.norm(person.line("/reproductions/0/line")[-1] - goal) < 2 * CLOSE
 
 
+def step_back(person: Person) -> None:
+    """Turn the mouse wheel until the picture is about half as large."""
+    tab = person.tab
+
+    def size() -> float:
+        return float(np.linalg.norm(np.subtract(tab.pixel(GOAL), tab.pixel("/start/0"))))
+
+    wanted = 0.5 * size()
+    tab.page.mouse.move(500.0, 60.0)
+    while size() > wanted:
+        tab.page.mouse.wheel(0.0, 200.0)
+        tab.frames(3)
+
+
 def test_a_hand_pulled_out_of_reach_turns_amber_and_says_why(visit: Visit) -> None:
     tab = (person := visit()).tab
     person.pause()
     before = person.work()
+    step_back(person)
     began = tab.position(HAND)
     x, y = tab.pixel(HAND)
     calm = tab.image()[round(y), round(x)].astype(int)
     tab.grab((x, y))
-    tab.pull((x, y), (x, 20.0), steps=6)
-    tab.pull((x, 20.0), (x + 150.0, 20.0), steps=4)
+    tab.pull((x, y), (x, 30.0), steps=4)
+    tab.pull((x, 30.0), (LEFT, 30.0), steps=6)
 
     tab.wait_until(lambda: tab.visible("/wanted/ghost"))
     tab.wait_until(lambda: tab.shows("The arm cannot follow"))
