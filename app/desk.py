@@ -184,6 +184,7 @@ class Desk:
     def decline_file(self) -> None:
         """Forget the offered file."""
         self._reading = self.offer = None
+        self.say("")
 
     # --- playback ----------------------------------------------------------------------
 
