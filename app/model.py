@@ -31,6 +31,8 @@ ANGLES: Final = 64
 """Corners of a cross-section."""
 COARSE_ANGLES: Final = 32
 """Corners of a cross-section while something is dragged; more are not drawn then."""
+BEGINNING: Final = 0.1
+"""A start within this part of the tube may join where it lies [-]."""
 DEFAULT_RATIO: Final = 0.5
 """Without a start of one's own, the first reproduction begins this far off-centre."""
 
@@ -199,11 +201,23 @@ def _run(
     former: Run | None,
 ) -> Run:
     if former is None or not np.array_equal(start, former.start):
-        free = reproduce(cylinder, start, outside="boundary")
+        free = reproduce_whole(cylinder, start)
         return Run(start, free, constrain(free, constraints), constraints)
     if former.constraints is constraints:
         return former
     return Run(former.start, former.free, constrain(former.free, constraints), constraints)
+
+
+def reproduce_whole(cylinder: GeneralizedCylinder, start: FloatArray) -> Reproduction:
+    """Run the whole skill from a start, wherever it is.
+
+    A start that lies near a later part of the tube does not cut the skill short, which would happen
+    suddenly while it is dragged, above all where the tube comes back to its beginning.
+    """
+    run = reproduce(cylinder, start, outside="boundary")
+    if run.stations[0] <= BEGINNING * len(cylinder.directrix):
+        return run
+    return reproduce(cylinder, start, at=0, outside="boundary")
 
 
 def _starts(model: Model, cylinder: GeneralizedCylinder) -> tuple[FloatArray, ...]:

@@ -185,3 +185,15 @@ def test_a_rule_holds_only_where_a_run_would_pass_it() -> None:
     touched = np.any(run.reproduction.positions != run.free.positions, axis=1)
     assert np.any(touched)
     assert not np.all(touched)
+
+
+def test_a_start_near_the_end_of_the_tube_still_runs_the_whole_skill() -> None:
+    document = taught()
+    model = learn(document)
+    assert model.cylinder is not None
+    near_the_end = model.cylinder.directrix[-2]
+
+    moved = learn(edits.move_start(document, 0, near_the_end), model).runs[0].reproduction
+
+    assert len(moved.times) == len(model.cylinder.directrix)
+    np.testing.assert_array_equal(moved.positions[0], near_the_end)
