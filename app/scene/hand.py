@@ -27,7 +27,7 @@ from app.scene.style import (
 from app.scene.view import Eye
 from app.store import Hand, State
 
-MOVING: Final = 2.0
+MOVING: Final = 1.5
 """While it plays the hand is harder to hit; its grip is that much wider."""
 MOST_POINTS: Final = 400
 """Of the recording so far; it is redrawn twenty times a second."""
