@@ -18,8 +18,6 @@ from scipy.interpolate import (  # pyright: ignore[reportMissingTypeStubs]  # Sc
 from app.document import FloatArray
 from gc_core import Demonstration
 
-RATE: Final = 50.0
-"""Samples a second [Hz]."""
 _FINE: Final = 801
 _FIRST_MOVE: Final = 0.06
 """Part of a minimum-jerk motion that is too slow to be seen: a recording begins with the move."""
@@ -41,6 +39,10 @@ class Plan:
     """How far a person strays from an even course, as a part of the half-width."""
     unevenness: float = 0.12
     """How far a person's progress leads or lags a minimum-jerk motion, as a part of the whole; below 0.3."""
+    care: float = 0.0
+    """How much of the slowness comes from narrowness, 0..1; at 1 speed is proportional to the half-width."""
+    rate: float = 50.0
+    """Samples a second [Hz]."""
 
 
 def demonstrate(plan: Plan) -> tuple[Demonstration, ...]:
@@ -49,8 +51,7 @@ def demonstrate(plan: Plan) -> tuple[Demonstration, ...]:
     Returns
     -------
     tuple of Demonstration
-        Around the middle path, at evenly spread sides of it; positions in metres,
-        `RATE` samples a second.
+        Around the middle path, at evenly spread sides of it; positions in metres.
     """
     rng = np.random.default_rng(plan.seed)
     path = middle_path(plan.waypoints)
@@ -77,7 +78,7 @@ def middle_path(waypoints: tuple[tuple[float, float, float], ...]) -> FloatArray
     return np.stack([np.interp(even, length, curve[:, axis]) for axis in range(3)], axis=1)
 
 
-def progress(seconds: float, lead: float, second_thought: float) -> FloatArray:
+def progress(seconds: float, lead: float, second_thought: float, rate: float = 50.0) -> FloatArray:
     """Say how far along the way a person is at each sample.
 
     A minimum-jerk motion whose clock runs unevenly, from where it begins to be seen
@@ -91,16 +92,46 @@ def progress(seconds: float, lead: float, second_thought: float) -> FloatArray:
         Ahead of an even clock in the middle of the motion (negative: behind) [-].
     second_thought : float
         Hesitation in the first half, made up for in the second [-].
+    rate : float
+        Samples a second [Hz].
 
     Returns
     -------
     (T,) array
         From 0 to 1.
     """
-    u = np.linspace(_FIRST_MOVE, 1.0 - _FIRST_MOVE, max(round(seconds * RATE), 2) + 1)
+    u = np.linspace(_FIRST_MOVE, 1.0 - _FIRST_MOVE, max(round(seconds * rate), 2) + 1)
     clock = u + lead * np.sin(np.pi * u) / np.pi + second_thought * np.sin(2.0 * np.pi * u) / (2.0 * np.pi)
     way = clock**3 * (10.0 - 15.0 * clock + 6.0 * clock**2)
     return (way - way[0]) / (way[-1] - way[0])
+
+
+def slow_where_narrow(way: FloatArray, half_width: FloatArray, care: float) -> FloatArray:
+    """Let a person slow down where the way is narrow, and take as long as before for the whole of it.
+
+    Parameters
+    ----------
+    way : (T,) array
+        How far along at each sample, from 0 to 1, never back.
+    half_width : (K,) array
+        At even steps of the way, positive [m].
+    care : float
+        `Plan.care`.
+
+    Returns
+    -------
+    (T,) array
+        From 0 to 1, never back.
+
+    References
+    ----------
+    .. [1] J. Accot, S. Zhai. Beyond Fitts' law: models for trajectory-based HCI tasks. CHI 1997:
+       the speed in a tunnel is proportional to its width.
+    """
+    slowness = (1.0 - care) + care * half_width.max() / half_width
+    clock = np.concatenate(([0.0], np.cumsum(0.5 * (slowness[1:] + slowness[:-1]))))
+    along = np.linspace(0.0, 1.0, len(half_width))
+    return np.clip(PchipInterpolator(clock / clock[-1], along)(way), 0.0, 1.0)
 
 
 def _one(plan: Plan, path: FloatArray, side: float, name: str, rng: np.random.Generator) -> Demonstration:
@@ -109,22 +140,30 @@ def _one(plan: Plan, path: FloatArray, side: float, name: str, rng: np.random.Ge
         seconds,
         lead=rng.uniform(-1.0, 1.0) * plan.unevenness,
         second_thought=rng.uniform(-1.0, 1.0) * 2.0 * plan.unevenness,
+        rate=plan.rate,
     )
+    if plan.care > 0.0:
+        way = slow_where_narrow(way, _half_width(plan, len(path)), plan.care)
     line = path + _offset(plan, path, side, rng)
     along = np.linspace(0.0, 1.0, len(path))
     positions = _spline(along, line, way)
-    return Demonstration(times=np.arange(len(way)) / RATE, positions=positions, name=name)
+    return Demonstration(times=np.arange(len(way)) / plan.rate, positions=positions, name=name)
 
 
 def _offset(plan: Plan, path: FloatArray, side: float, rng: np.random.Generator) -> FloatArray:
     """Where this person is beside the middle path, (K, 3) [m]."""
     along = np.linspace(0.0, 1.0, len(path))
-    part, width = np.array(plan.spread, dtype=np.float64).T
-    half_width: FloatArray = np.asarray(PchipInterpolator(part, width)(along), dtype=np.float64)
+    half_width = _half_width(plan, len(path))
     across, up = _across(path)
     angle = side + rng.uniform(-0.25, 0.25) + 0.35 * _slow_wave(along, rng)
     distance = half_width * (rng.uniform(0.86, 1.0) + plan.wander * _slow_wave(along, rng))
     return distance[:, None] * (np.cos(angle)[:, None] * across + np.sin(angle)[:, None] * up)
+
+
+def _half_width(plan: Plan, count: int) -> FloatArray:
+    """Half-width of the spread at even steps of the way, (count,) [m]."""
+    part, width = np.array(plan.spread, dtype=np.float64).T
+    return np.asarray(PchipInterpolator(part, width)(np.linspace(0.0, 1.0, count)), dtype=np.float64)
 
 
 def _spline(at: FloatArray, values: FloatArray, wanted: FloatArray) -> FloatArray:

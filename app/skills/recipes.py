@@ -26,9 +26,11 @@ class Recipe:
     starts: tuple[tuple[float, float], ...]
     """Of its reproductions: (ratio eta, direction in the first section [rad])."""
     law: Mapping[str, float]
-    """What the skill must show, all in metres: how far from the goal demonstrations and
-    reproductions end at most; how wide the tube is, at least near its beginning and at
-    most at its end. The tests read it from the skill's file."""
+    """What the skill must show; the tests read it from the skill's file. In metres: how far from the
+    goal demonstrations and reproductions end at most; how wide the tube is, at least near its
+    beginning and at most at its end. As a part of the narrower end: how wide it is at most half of
+    the way along. Width is the mean over all directions of the distance from boundary to boundary
+    through the middle line: twice the mean radius of the slice."""
 
 
 _BALL: Final = (-0.11, -0.60, 0.06)
@@ -48,4 +50,30 @@ REACHING: Final = Recipe(
     law={"demonstration_end_m": 0.02, "reproduction_end_m": 0.02, "widest_m": 0.12, "narrowest_m": 0.04},
 )
 
-RECIPES: Final = (REACHING,)
+_BEYOND_THE_EYE: Final = (-0.36, -0.44, 0.24)
+
+NEEDLE: Final = Recipe(
+    name="needle",
+    title="Needle",
+    about="This robot was shown five times how to thread the eye of a needle: free before and after, exact "
+    "in the middle.",
+    plan=Plan(
+        waypoints=(
+            (0.44, -0.26, 0.42),
+            (0.24, -0.46, 0.42),
+            (0.04, -0.55, 0.36),
+            (-0.16, -0.55, 0.27),
+            _BEYOND_THE_EYE,
+        ),
+        spread=((0.0, 0.088), (0.2, 0.066), (0.44, 0.012), (0.56, 0.012), (0.8, 0.064), (1.0, 0.084)),
+        seed=8,
+        care=0.3,
+        rate=60.0,
+    ),
+    section="closed_spline",
+    goal=_BEYOND_THE_EYE,
+    starts=((0.65, 0.6), (0.7, 3.9)),
+    law={"middle_to_ends": 0.25, "middle_m": 0.03},
+)
+
+RECIPES: Final = (REACHING, NEEDLE)

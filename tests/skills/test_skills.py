@@ -24,12 +24,14 @@ from app.skills import (
     skill_names,
 )
 from app.skills.making import make, write
-from app.skills.motion import Plan, demonstrate, middle_path, progress
+from app.skills.motion import Plan, demonstrate, middle_path, progress, slow_where_narrow
 from app.skills.recipes import REACHING, RECIPES
 from app.skills.shelf import format_card
 from gc_core import Demonstration, GeneralizedCylinder, encode, reproduce, same_content
 
 FOLDER = Path(__file__).parents[2] / "static" / "skills"
+ALL_KINDS = (*SECTION_KINDS, "hull")
+"""Those that a document can have, and the tightest."""
 PLAN = Plan(
     waypoints=((0.3, -0.4, 0.4), (0.1, -0.5, 0.5), (-0.1, -0.5, 0.1)),
     spread=((0.0, 0.05), (1.0, 0.01)),
@@ -53,7 +55,7 @@ def shown(document: Document) -> list[Demonstration]:
     return [item.demonstration for item in document.demonstrations]
 
 
-def cylinder_of(document: Document, section: SectionKind) -> GeneralizedCylinder:
+def cylinder_of(document: Document, section: str) -> GeneralizedCylinder:
     return encode(shown(document), section=section, align_by=document.settings.align_by)
 
 
@@ -137,6 +139,55 @@ def test_a_reproduction_of_reaching_ends_at_the_ball(section: SectionKind) -> No
         assert run.start_inside
         assert 0.5 < run.ratios[0] < 0.8
         assert np.linalg.norm(run.positions[-1] - card.goal) <= card.law["reproduction_end_m"]
+
+
+def widths(cylinder: GeneralizedCylinder) -> np.ndarray:
+    """(N,) twice the mean radius of each slice [m]; see `Recipe.law`."""
+    return 2.0 * cylinder.radii.mean(axis=1)
+
+
+@pytest.mark.parametrize("section", ALL_KINDS)
+def test_the_needle_is_wide_then_narrow_in_the_middle_then_wide(section: str) -> None:
+    document, card = load_skill(FOLDER, "needle"), load_card(FOLDER, "needle")
+    cylinder = cylinder_of(document, section)
+
+    width = widths(cylinder)
+    first, middle, last = width[0], np.interp(0.5, np.linspace(0.0, 1.0, len(width)), width), width[-1]
+    assert middle <= card.law["middle_to_ends"] * min(first, last)
+    assert middle <= card.law["middle_m"]
+    assert 0.4 < np.argmin(width) / len(width) < 0.6
+    assert not cylinder.diagnostics.crossing.any()
+
+
+@pytest.mark.parametrize("section", ALL_KINDS)
+def test_every_reproduction_threads_the_needle_and_goes_on_to_the_end(section: str) -> None:
+    document, card = load_skill(FOLDER, "needle"), load_card(FOLDER, "needle")
+    cylinder = cylinder_of(document, section)
+    eye = cylinder.directrix[len(cylinder.directrix) // 2]
+
+    for start in document.starts:
+        run = reproduce(cylinder, start)
+        assert run.start_inside
+        assert np.linalg.norm(run.positions - eye, axis=1).min() <= 0.5 * card.law["middle_m"]
+        assert np.linalg.norm(run.positions[0] - eye) > 0.3
+        assert np.linalg.norm(run.positions[-1] - eye) > 0.3
+
+
+def test_people_slow_down_at_the_eye_of_the_needle() -> None:
+    for d in shown(load_skill(FOLDER, "needle")):
+        speed = np.linalg.norm(np.diff(d.positions, axis=0), axis=1) / np.diff(d.times)
+        eye = int(np.argmin(np.abs(d.positions[:, 0] - 0.04)))  # where the eye is along the way
+        assert speed[eye - 5 : eye + 5].mean() < 0.75 * speed.max(), d.name
+
+
+def test_the_needle_is_recorded_at_sixty_samples_a_second() -> None:
+    for d in shown(load_skill(FOLDER, "needle")):
+        assert 1.0 / np.diff(d.times).max() >= 59.0, d.name
+
+
+def test_the_arm_reaches_every_sample_of_a_skill(name: str, arm: Jaco) -> None:
+    for d in shown(load_skill(FOLDER, name)):
+        assert arm.follow(d.positions).errors.max() < 1e-3, d.name
 
 
 def test_an_empty_skill_has_a_ball_in_reach_and_nothing_taught() -> None:
@@ -228,3 +279,29 @@ def test_progress_runs_from_start_to_end_and_never_back(
     assert way[0] == 0.0
     assert way[-1] == pytest.approx(1.0)
     assert (np.diff(way) > 0.0).all()
+
+
+@given(
+    seconds=st.floats(1.0, 10.0),
+    widths=st.lists(st.floats(0.005, 0.1), min_size=3, max_size=12),
+    care=st.floats(0.0, 1.0),
+)
+def test_slowing_down_keeps_the_ends_the_duration_and_the_direction(
+    seconds: float, widths: list[float], care: float
+) -> None:
+    way = progress(seconds, 0.0, 0.0)
+    slowed = slow_where_narrow(way, np.array(widths), care)
+
+    assert slowed.shape == way.shape
+    assert slowed[0] == 0.0
+    assert slowed[-1] == pytest.approx(1.0)
+    assert (np.diff(slowed) > 0.0).all()
+
+
+def test_full_care_makes_speed_proportional_to_width() -> None:
+    width = np.linspace(0.01, 0.05, 400)
+    slowed = slow_where_narrow(np.linspace(0.0, 1.0, 2000), width, care=1.0)
+
+    here = np.interp(slowed, np.linspace(0.0, 1.0, 400), width)
+    ratio = np.gradient(slowed) / here
+    np.testing.assert_allclose(ratio[1:-1] / ratio[1000], 1.0, atol=0.02)
