@@ -17,6 +17,9 @@ from gc_core.radius import radius_at
 WINDOW = 21
 """Steps whose median a step is measured by; at the ends of a path those of them that exist."""
 
+IN_PLANE = 1e-8
+"""A sample this near to a plane lies in it [m]."""
+
 HELD = 1.0 + 1e-9
 """A point is inside of its polygon up to this ratio: rounding [-]."""
 
@@ -148,7 +151,10 @@ def slopes(cylinder: GeneralizedCylinder) -> FloatArray:
 
 
 def off_demonstrations(cylinder: GeneralizedCylinder, shown: list[Demonstration]) -> float:
-    """Farthest distance of an effective point that counts as a crossing from any true crossing [m]."""
+    """Farthest distance of an effective point that counts as a crossing from any true crossing [m].
+
+    A sample in the plane is a crossing too: an end need not go through it.
+    """
     farthest = 0.0
     normals = cylinder.frames[:, :, 0]
     level = (cylinder.directrix * normals).sum(axis=1)
@@ -159,6 +165,8 @@ def off_demonstrations(cylinder: GeneralizedCylinder, shown: list[Demonstration]
         before, after = height[piece, station], height[piece + 1, station]
         part = (before / (before - after))[:, None]
         met = path[piece] * (1.0 - part) + path[piece + 1] * part
+        touching, touched = np.nonzero(np.abs(height) <= IN_PLANE)
+        met, station = np.concatenate((met, path[touching])), np.concatenate((station, touched))
         away = np.linalg.norm(met - cylinder.effective_points[station, j], axis=1)
         nearest = np.full(len(normals), np.inf)
         np.minimum.at(nearest, station, away)
