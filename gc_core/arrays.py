@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import fields, is_dataclass
-from typing import Any, TypeVar, cast
+from functools import wraps
+from typing import Any, Concatenate, ParamSpec, TypeVar, cast
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +17,9 @@ FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.intp]
 Scalar = TypeVar("Scalar", bound=np.generic)
+Key = TypeVar("Key")
+Result = TypeVar("Result")
+Options = ParamSpec("Options")
 
 
 def read_only(array: NDArray[Scalar]) -> NDArray[Scalar]:
@@ -64,6 +70,35 @@ def finite(values: ArrayLike, what: str, shape: tuple[int | None, ...]) -> Float
 def interpolated(at: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
     """Interpolate the polyline y(x) (T,) at places (K,), its end values beyond its ends."""
     return np.asarray(np.interp(at, x, y), dtype=np.float64)
+
+
+def remembered(
+    function: Callable[Concatenate[Key, Options], Result],
+) -> Callable[Concatenate[Key, Options], Result]:
+    """Decorate a function of an immutable value, so that its latest result lives as long as the value does.
+
+    Parameters
+    ----------
+    function : callable
+        Its first argument is compared by identity, the others by their values.
+
+    Returns
+    -------
+    callable
+        The same function; one result is kept for each living first argument.
+    """
+    memory: WeakKeyDictionary[Key, tuple[object, Result]] = WeakKeyDictionary()
+
+    @wraps(function)
+    def lookup(value: Key, /, *options: Options.args, **named: Options.kwargs) -> Result:
+        asked = (options, named)
+        known = memory.get(value)
+        if known is None or known[0] != asked:
+            known = (asked, function(value, *options, **named))
+            memory[value] = known
+        return known[1]
+
+    return lookup
 
 
 def read_only_fields(value: object) -> None:

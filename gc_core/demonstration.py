@@ -6,24 +6,37 @@ Trimming makes a `Trimmed` for computing; the demonstration itself stays as it w
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
-from gc_core.arrays import FloatArray, finite, read_only, read_only_fields
+from gc_core.arrays import FloatArray, IntArray, finite, read_only, read_only_fields, remembered
 from gc_core.errors import (
     NoMotionError,
     ShapeError,
     TimesNotIncreasingError,
+    TooFarError,
     TooFewSamplesError,
+    TooLateError,
     ZeroQuaternionError,
 )
 
 SMALLEST_MOTION = 1e-6
 """Demonstrations that stay within this box diagonal do not move [m]."""
 
+FARTHEST = 1e6
+"""Positions beyond this distance from the base are no metres [m]."""
+
+LATEST = 1e11
+"""Times beyond this are no seconds: since 1970, 1.8e9 have passed [s]."""
+
+SHORTEST_STEP = 1e-15
+"""Times that differ by less are one time [s]."""
+
 STATIONARY_SPEED = 0.02
-"""The tool stands still below this part of the 90th percentile of its own speed [-]."""
+"""The tool stands still below this part of its own top speed, the 90th percentile while it moves [-]."""
+
+MOST_SAMPLES = 10_000
+"""A demonstration with more samples is computed with about this many of them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +47,7 @@ class Demonstration:
     ------
     ShapeError, TooFewSamplesError, NotFiniteError
         When the arrays are no recording.
-    TimesNotIncreasingError, NoMotionError, ZeroQuaternionError
+    TimesNotIncreasingError, NoMotionError, TooFarError, TooLateError, ZeroQuaternionError
         Naming the demonstration and the sample.
     """
 
@@ -57,6 +70,7 @@ class Demonstration:
             raise ShapeError(f"{what}: times", f"({len(positions)},), one per position,", times.shape)
         if len(times) < 2:
             raise TooFewSamplesError(what, len(times))
+        _check_ranges(what, times, positions)
         check_times(what, times)
         extent = float(np.linalg.norm(np.ptp(positions, axis=0)))
         if extent < SMALLEST_MOTION:
@@ -92,20 +106,22 @@ class Trimmed:
         read_only_fields(self)
 
 
-@lru_cache(maxsize=256)
+@remembered
 def trim(demonstration: Demonstration, threshold: float = STATIONARY_SPEED) -> Trimmed:
     """Cut the ends in which the tool stands still.
 
     The speed at a sample is taken over one hundredth of the samples to either side,
     so that a sensor's noise is not taken for motion. The first and the last place are
-    kept: they are joined to the motion at the threshold speed. The result is remembered:
-    while one demonstration is being corrected, the others are trimmed already.
+    kept: they are joined to the motion at the threshold speed. Of more than `MOST_SAMPLES`
+    samples, those that carry the shape are taken. The result is remembered as long as the
+    demonstration lives: while one is being corrected, the others are trimmed already.
 
     Parameters
     ----------
     demonstration : Demonstration
     threshold : float
-        Part of the demonstration's own 90th percentile of speed below which it stands still [-].
+        Part of the demonstration's own top speed (the 90th percentile while it moves) below which it
+        stands still [-].
 
     Returns
     -------
@@ -117,8 +133,7 @@ def trim(demonstration: Demonstration, threshold: float = STATIONARY_SPEED) -> T
     before = np.maximum(np.arange(len(times)) - reach, 0)
     moved = positions[after] - positions[before]
     speed = np.sqrt(np.einsum("ij,ij->i", moved, moved)) / (times[after] - times[before])
-    rank = int(0.9 * (len(speed) - 1))
-    limit = threshold * float(np.partition(speed, rank)[rank])
+    limit = threshold * _top_speed(speed, threshold)
     moving = np.flatnonzero(speed > limit)
     if not moving.size:
         moving = np.array([0, len(times) - 1])
@@ -128,35 +143,79 @@ def trim(demonstration: Demonstration, threshold: float = STATIONARY_SPEED) -> T
     return _joined(demonstration, first, last, limit)
 
 
+def _top_speed(speed: FloatArray, threshold: float) -> float:
+    """90th percentile of the speeds (T,) at samples that move [m/s].
+
+    Those move that exceed the threshold times the speed at which half of the way was gone: however long a
+    recording stands still, that adds nothing to its way.
+    """
+    ranked = np.sort(speed)
+    gone = np.cumsum(ranked)
+    usual = float(ranked[np.searchsorted(gone, 0.5 * gone[-1])])
+    still = int(np.searchsorted(ranked, threshold * usual, side="right"))
+    return float(ranked[min(still + int(0.9 * (len(ranked) - 1 - still)), len(ranked) - 1)])
+
+
 def _joined(demonstration: Demonstration, first: int, last: int, speed: float) -> Trimmed:
     """Samples first..last, with the true ends put back at the given speed [m/s]."""
     times, positions = demonstration.times, demonstration.positions
-    kept = np.arange(first, last + 1, dtype=np.float64)
-    clock = times[first : last + 1]
+    steps = np.diff(positions[first : last + 1], axis=0)
+    kept = _telling_samples(positions, first, last)
+    clock = times[kept]
     lead = float(np.linalg.norm(positions[first] - positions[0]))
     tail = float(np.linalg.norm(positions[-1] - positions[last]))
     if lead > 0.0:
         begin = max(times[first] - lead / max(speed, 1e-12), times[0])
-        kept, clock = np.concatenate(([0.0], kept)), np.concatenate(([begin], clock))
+        kept, clock = np.concatenate(([0], kept)), np.concatenate(([begin], clock))
     if tail > 0.0:
         end = min(times[last] + tail / max(speed, 1e-12), times[-1])
-        kept, clock = np.concatenate((kept, [len(times) - 1.0])), np.concatenate((clock, [end]))
-    path = positions[kept.astype(np.intp)]
-    steps = np.diff(path, axis=0)
+        kept, clock = np.concatenate((kept, [len(times) - 1])), np.concatenate((clock, [end]))
     return Trimmed(
         times=clock - clock[0],
-        positions=path,
-        kept=kept,
+        positions=positions[kept],
+        kept=kept.astype(np.float64),
         cut_start=float(clock[0] - times[0]),
         cut_end=float(times[-1] - clock[-1]),
-        length=float(np.sqrt(np.einsum("ij,ij->i", steps, steps)).sum()),
+        length=lead + float(np.sqrt(np.einsum("ij,ij->i", steps, steps)).sum()) + tail,
         duplicates=int((steps == 0.0).all(axis=1).sum()),
     )
 
 
+def _telling_samples(positions: FloatArray, first: int, last: int) -> IntArray:
+    """Samples first..last, or about `MOST_SAMPLES` of them.
+
+    Of each block the first is taken, and the one furthest from the line to the next block, so that no
+    excursion is lost.
+    """
+    if last - first < MOST_SAMPLES:
+        return np.arange(first, last + 1)
+    size = -(-2 * (last - first) // MOST_SAMPLES)
+    begins = np.arange(first, last, size)
+    inner = np.minimum(begins[:, None] + np.arange(1, size), last)
+    line = (positions[np.minimum(begins + size, last)] - positions[begins])[:, None]
+    away = positions[inner] - positions[begins][:, None]
+    square = np.einsum("bik,bik->bi", line, line)
+    along = np.einsum("bik,bik->bi", away, line) / np.where(square > 0.0, square, 1.0)
+    away = away - np.clip(along, 0.0, 1.0)[..., None] * line
+    furthest = np.argmax(np.einsum("bik,bik->bi", away, away), axis=1)
+    return np.unique(np.concatenate((begins, inner[np.arange(len(begins)), furthest], [last])))
+
+
+def _check_ranges(what: str, times: FloatArray, positions: FloatArray) -> None:
+    """Refuse what is in other units than metres and seconds by orders of magnitude."""
+    far = np.flatnonzero((np.abs(positions) > FARTHEST).any(axis=1))
+    if far.size:
+        # The largest coordinate instead of the length, whose square may not be a number any more.
+        distance = float(np.abs(positions[far[0]]).max())
+        raise TooFarError(what, int(far[0]), distance, FARTHEST)
+    late = np.flatnonzero(np.abs(times) > LATEST)
+    if late.size:
+        raise TooLateError(what, int(late[0]), float(times[late[0]]), LATEST)
+
+
 def check_times(what: str, times: FloatArray) -> None:
     """Refuse times (T,) [s] that do not strictly increase, naming the sample."""
-    standing = np.flatnonzero(np.diff(times) <= 0.0)
+    standing = np.flatnonzero(np.diff(times) < SHORTEST_STEP)
     if standing.size:
         index = int(standing[0])
         raise TimesNotIncreasingError(what, index, float(times[index]), float(times[index + 1]))
@@ -165,11 +224,13 @@ def check_times(what: str, times: FloatArray) -> None:
 def _quaternions(what: str, values: FloatArray, count: int) -> FloatArray:
     """Normalize quaternions (T, 4) and flip signs so that neighbours lie on one side."""
     raw = finite(values, f"{what}: orientations", (count, 4))
-    lengths = np.linalg.norm(raw, axis=1)
-    zero = np.flatnonzero(lengths < 1e-9)
+    largest = np.abs(raw).max(axis=1, keepdims=True)
+    zero = np.flatnonzero(largest < 1e-9)
     if zero.size:
         raise ZeroQuaternionError(what, int(zero[0]))
-    return read_only(sign_continuous(raw / lengths[:, None]))
+    # Scaled first, since the square of a huge number is none.
+    scaled = raw / largest
+    return read_only(sign_continuous(scaled / np.linalg.norm(scaled, axis=1, keepdims=True)))
 
 
 def sign_continuous(quaternions: FloatArray) -> FloatArray:

@@ -55,6 +55,31 @@ class TimesNotIncreasingError(GcError):
         self.index = index
 
 
+class TooFarError(GcError):
+    """A position is further away than any arm reaches."""
+
+    def __init__(self, what: str, index: int, distance: float, limit: float) -> None:
+        super().__init__(
+            f"{what}: the position at sample {index} is {distance:.3g} m away from the base, "
+            f"beyond {limit:g} m. Give metres (millimetres must be divided by 1000), or remove that sample "
+            "if it is a sensor's error."
+        )
+        self.index = index
+        self.distance = distance
+
+
+class TooLateError(GcError):
+    """A time is further from zero than any clock in seconds."""
+
+    def __init__(self, what: str, index: int, time: float, limit: float) -> None:
+        super().__init__(
+            f"{what}: the time at sample {index} is {time:.3g} s, beyond {limit:g} s. Give seconds "
+            "(milliseconds must be divided by 1e3, microseconds by 1e6, nanoseconds by 1e9)."
+        )
+        self.index = index
+        self.time = time
+
+
 class NoMotionError(GcError):
     """All samples of a demonstration are in the same place."""
 

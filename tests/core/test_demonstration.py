@@ -1,7 +1,12 @@
 from __future__ import annotations
 
+import gc
+import weakref
+
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from gc_core import (
     Demonstration,
@@ -10,12 +15,14 @@ from gc_core import (
     NotFiniteError,
     ShapeError,
     TimesNotIncreasingError,
+    TooFarError,
     TooFewSamplesError,
+    TooLateError,
     ZeroQuaternionError,
     encode,
 )
-from gc_core.demonstration import trim
-from tests.core.shapes import bundle
+from gc_core.demonstration import MOST_SAMPLES, trim
+from tests.core.shapes import bundle, seeds
 
 T = np.linspace(0.0, 1.0, 11)
 P = np.outer(T, [0.3, 0.1, 0.0])
@@ -40,6 +47,10 @@ def replaced(array: np.ndarray, index: int, value: float) -> np.ndarray:
         (NotFiniteError, {"times": T, "positions": replaced(P, 4, np.nan)}),
         (NotFiniteError, {"times": replaced(T, 10, np.inf), "positions": P}),
         (TimesNotIncreasingError, {"times": replaced(T, 5, T[4]), "positions": P}),
+        (TimesNotIncreasingError, {"times": replaced(T, 1, 5e-324), "positions": P}),
+        (TooFarError, {"times": T, "positions": 1e200 * P}),
+        (TooFarError, {"times": T, "positions": 1e7 * P}),
+        (TooLateError, {"times": 1.7e18 + 1e9 * T, "positions": P}),
         (NoMotionError, {"times": [0.0, 1.0], "positions": [[1.0, 2.0, 3.0], [1.0, 2.0, 3.0]]}),
         (
             ZeroQuaternionError,
@@ -119,3 +130,71 @@ def test_what_is_remembered_of_trimming_cannot_be_written_to() -> None:
     part = trim(bundle(0, 1)[0])
 
     assert not any(array.flags.writeable for array in (part.times, part.positions, part.kept))
+
+
+def recorded(samples: int) -> np.ndarray:
+    u = np.linspace(0.0, 1.0, samples)
+    return np.stack((u, 0.1 * np.sin(9.0 * u), 0.1 * np.cos(5.0 * u)), axis=1)
+
+
+@settings(max_examples=30, deadline=None)
+@given(still=st.integers(0, 20), seed=seeds)
+def test_what_is_cut_does_not_depend_on_how_long_it_stood_still(still: int, seed: int) -> None:
+    demonstration = with_pauses(100 * still, 100 * still, noise=1e-6 * (seed % 3))
+    trimmed = trim(demonstration)
+
+    np.testing.assert_allclose((trimmed.cut_start, trimmed.cut_end), still, atol=0.05 * (1 + still))
+    assert trimmed.times[-1] > 1.9
+
+
+def test_repeated_places_are_counted() -> None:
+    path = np.repeat(recorded(40), 3, axis=0)
+
+    assert trim(Demonstration(0.01 * np.arange(120), path)).duplicates == 80 - 4, (
+        "but not those cut at the ends"
+    )
+
+
+def test_a_glitch_of_the_sensor_does_not_cut_a_slow_motion() -> None:
+    path = recorded(500)
+    path[250] += 1.0
+
+    assert len(trim(Demonstration(0.01 * np.arange(500), path)).times) == 500
+
+
+@pytest.mark.parametrize("samples", [MOST_SAMPLES, MOST_SAMPLES + 1, 12_345, 100_000])
+def test_a_long_recording_is_reduced_and_keeps_its_ends_and_its_shape(samples: int) -> None:
+    demonstration = Demonstration(1e-3 * np.arange(samples), recorded(samples))
+    part = trim(demonstration)
+    back = np.array([np.interp(demonstration.times, part.times, axis) for axis in part.positions.T]).T
+
+    assert len(part.times) <= MOST_SAMPLES + 2
+    np.testing.assert_array_equal(part.positions[[0, -1]], demonstration.positions[[0, -1]])
+    np.testing.assert_allclose(back, demonstration.positions, atol=1e-6)
+    np.testing.assert_array_equal(demonstration.positions[part.kept.astype(int)], part.positions)
+
+
+@settings(max_examples=20, deadline=None)
+@given(at=st.integers(1, 99_998))
+def test_an_excursion_of_a_single_sample_survives_the_reduction(at: int) -> None:
+    path = recorded(100_000)
+    path[at] += [0.0, 0.0, 0.5]
+    part = trim(Demonstration(1e-3 * np.arange(100_000), path))
+
+    assert at in part.kept
+
+
+def test_what_is_remembered_of_a_demonstration_goes_with_it() -> None:
+    demonstration = bundle(0, 1)[0]
+    part = weakref.ref(trim(demonstration))
+    assert trim(demonstration) is part()
+    del demonstration
+    gc.collect()
+
+    assert part() is None
+
+
+def test_huge_quaternions_become_unit_ones() -> None:
+    orientations = Demonstration(T, P, orientations=np.full((11, 4), 1e200)).orientations
+
+    np.testing.assert_allclose(orientations, 0.5)
