@@ -228,8 +228,8 @@ def _quaternions(what: str, values: FloatArray, count: int) -> FloatArray:
     zero = np.flatnonzero(largest < 1e-9)
     if zero.size:
         raise ZeroQuaternionError(what, int(zero[0]))
-    # Scaled first, since the square of a huge number is none.
-    scaled = raw / largest
+    # The square of a huge number is none; scaled by powers of two, all digits stay.
+    scaled = np.ldexp(raw, -np.frexp(largest)[1])
     return read_only(sign_continuous(scaled / np.linalg.norm(scaled, axis=1, keepdims=True)))
 
 
