@@ -1,59 +1,122 @@
-"""Recordings of people and arms that nobody tuned for; skipped where they are not present."""
+"""Recordings of people and arms that nobody tuned for; skipped where they are not present.
+
+Every set, every kind of section and every alignment is measured once (`tests.measurements`); each
+test looks at one thing that must hold.
+"""
 
 from __future__ import annotations
+
+from functools import cache
 
 import numpy as np
 import pytest
 
-from gc_core import encode, generalize, register, reproduce
+from gc_core import GeneralizedCylinder, encode, generalize, register, reproduce
 from gc_core.alignment import ALIGNMENTS
-from gc_core.radius import radius_at
+from gc_core.radius import GREATEST_SLOPE
 from gc_core.sections import SECTIONS
-from tests.core.test_encode import in_plane, ratios_to_polygons
 from tests.helpers_data import ALL_SETS, POSE_SETS, load
+from tests.measurements import geometry, runs
+from tests.measurements.sections import STATIONS, TIGHT_ANGLES, Measured, measure
 
 every_set = pytest.mark.parametrize("name", ALL_SETS)
 every_section = pytest.mark.parametrize("section", sorted(SECTIONS))
 every_alignment = pytest.mark.parametrize("align_by", ALIGNMENTS)
 
+STARTS = 1000
 
-@every_set
-@every_section
-@every_alignment
-def test_every_effective_point_is_inside_and_nothing_is_nan(name: str, section: str, align_by: str) -> None:
-    cylinder = encode(load(name), section=section, align_by=align_by)
 
-    assert np.isfinite(cylinder.surface()).all()
-    assert np.isfinite(cylinder.times).all()
-    np.testing.assert_allclose(in_plane(cylinder, cylinder.effective_points)[..., 0], 0.0, atol=1e-9)
-    assert ratios_to_polygons(cylinder).max() <= 1.0 + 1e-9
-    slope = np.abs(np.diff(cylinder.radii, axis=0)) / np.diff(cylinder.arc_length)[:, None]
-    assert slope.max() <= 2.0 + 1e-6
+@cache
+def tube(name: str, section: str, align_by: str) -> GeneralizedCylinder:
+    return encode(load(name), section=section, align_by=align_by, stations=STATIONS, angles=TIGHT_ANGLES)
+
+
+@cache
+def measured(name: str, section: str, align_by: str) -> Measured:
+    return measure(name, load(name), tube(name, section, align_by), align_by, STARTS)
 
 
 @every_set
 @every_section
 @every_alignment
-def test_runs_from_inside_stay_inside(name: str, section: str, align_by: str) -> None:
-    cylinder = encode(load(name), section=section, align_by=align_by)
-    rng = np.random.default_rng(0)
-    angles, ratios = rng.uniform(0.0, 2.0 * np.pi, 100), np.sqrt(rng.uniform(0.0, 1.0, 100))
-    away = ratios * radius_at(cylinder.radii, np.zeros(100, dtype=int), angles)
-    starts = cylinder.directrix[0] + away[:, None] * (
-        np.stack((np.cos(angles), np.sin(angles)), axis=1) @ cylinder.frames[0, :, 1:].T
-    )
-    runs = reproduce(cylinder, starts)
+def test_every_number_is_finite(name: str, section: str, align_by: str) -> None:
+    assert measured(name, section, align_by).finite
 
-    assert cylinder.contains(runs.positions.reshape(-1, 3)).all()
+
+@every_set
+@every_section
+@every_alignment
+def test_every_effective_point_is_inside_its_section(name: str, section: str, align_by: str) -> None:
+    assert measured(name, section, align_by).ratio <= geometry.HELD
+
+
+@every_set
+@every_section
+@every_alignment
+def test_every_centre_is_inside_its_section(name: str, section: str, align_by: str) -> None:
+    assert measured(name, section, align_by).centres_outside == 0
+
+
+@every_set
+@every_section
+@every_alignment
+def test_effective_points_are_crossings_unless_said_to_be_missed(
+    name: str, section: str, align_by: str
+) -> None:
+    found = measured(name, section, align_by)
+
+    assert found.off <= 1e-9
+    assert found.flat <= 1e-9
+
+
+@every_set
+@every_section
+@every_alignment
+def test_sections_widen_by_a_stated_slope_at_most(name: str, section: str, align_by: str) -> None:
+    assert measured(name, section, align_by).slope <= GREATEST_SLOPE + 1e-6
+
+
+@every_set
+@every_section
+@every_alignment
+def test_the_tilt_that_is_told_is_that_of_the_planes(name: str, section: str, align_by: str) -> None:
+    assert measured(name, section, align_by).tilt_error <= 1e-3
+
+
+@every_set
+@every_section
+@every_alignment
+def test_every_station_that_cuts_a_neighbour_is_named(name: str, section: str, align_by: str) -> None:
+    assert measured(name, section, align_by).unnamed == 0
+
+
+@every_set
+@every_section
+@every_alignment
+def test_no_run_from_inside_leaves_the_tube(name: str, section: str, align_by: str) -> None:
+    found = measured(name, section, align_by)
+
+    assert found.first.outside == 0
+    assert found.anywhere.outside == 0
+
+
+@every_set
+@every_section
+@every_alignment
+def test_the_tube_contains_its_runs(name: str, section: str, align_by: str) -> None:
+    cylinder = tube(name, section, align_by)
+    starts = runs.in_first_section(cylinder, 50, np.random.default_rng(1))
+    positions = reproduce(cylinder, starts).positions
+
+    assert cylinder.contains(positions.reshape(-1, 3)).all()
 
 
 @every_set
 @every_alignment
 def test_a_run_from_each_demonstration_s_start_is_finite(name: str, align_by: str) -> None:
-    shown = load(name)
-    cylinder = encode(shown, align_by=align_by)
+    cylinder = tube(name, "closed_spline", align_by)
 
-    for demonstration in shown:
+    for demonstration in load(name):
         run = reproduce(cylinder, demonstration.positions[0], law="convergent")
         assert np.isfinite(run.positions).all()
         np.testing.assert_allclose(run.positions[0], demonstration.positions[0], atol=1e-12)
@@ -69,7 +132,7 @@ def test_moved_ends_are_met_and_effective_points_stay_inside(name: str, section:
         moved = generalize(cylinder, register(ends, targets))
         np.testing.assert_allclose(moved.directrix[[0, -1]], targets, atol=1e-9)
         assert np.isfinite(moved.surface()).all()
-        assert ratios_to_polygons(moved).max() <= 1.0 + 1e-9
+        assert geometry.ratios_to_polygons(moved).max() <= geometry.HELD
 
 
 @pytest.mark.parametrize("name", [*POSE_SETS, "lab"])

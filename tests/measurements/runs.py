@@ -9,7 +9,7 @@ import numpy as np
 from gc_core import GeneralizedCylinder, reproduce
 from gc_core.arrays import BoolArray, FloatArray
 from gc_core.radius import radius_at
-from tests.measurements.geometry import steps_by_median
+from tests.measurements.geometry import HELD, IN_PLANE, steps_by_median
 
 JUMP = 5.0
 """A step above this many times the median of the steps around it is a jump [-]."""
@@ -46,19 +46,28 @@ def anywhere(cylinder: GeneralizedCylinder, count: int, rng: np.random.Generator
 
 def follow(cylinder: GeneralizedCylinder, starts: FloatArray) -> Runs:
     """Run the skill from starts (S, 3) and judge the runs."""
-    positions = reproduce(cylinder, starts).positions
-    inside = _inside(cylinder, positions)
-    ratios = steps_by_median(positions)
+    runs = reproduce(cylinder, starts)
+    ratios = steps_by_median(runs.positions)
     return Runs(
-        outside=int((~inside).any(axis=1).sum()),
+        outside=int((~inside(cylinder, runs.positions, runs.stations)).any(axis=1).sum()),
         jumping=int((ratios > JUMP).any(axis=1).sum()),
         worst=float(ratios.max()),
     )
 
 
-def _inside(cylinder: GeneralizedCylinder, positions: FloatArray) -> BoolArray:
-    """Which samples (S, K) of paths (S, K, 3) lie in the tube."""
-    return cylinder.contains(positions.reshape(-1, 3)).reshape(positions.shape[:2])
+def inside(cylinder: GeneralizedCylinder, positions: FloatArray, stations: FloatArray) -> BoolArray:
+    """Which samples (S, K) of paths (S, K, 3) at stations (K,) lie in the tube.
+
+    What lies in its own station's polygon does; `contains` is asked about the rest.
+    """
+    rows = np.rint(stations).astype(np.intp)
+    local = np.einsum("ski,kij->skj", positions - cylinder.directrix[rows], cylinder.frames[rows])
+    angles = np.arctan2(local[..., 2], local[..., 1])
+    reach = radius_at(cylinder.radii, np.broadcast_to(rows, angles.shape), angles)
+    held = (np.abs(local[..., 0]) <= IN_PLANE) & (np.hypot(local[..., 1], local[..., 2]) <= HELD * reach)
+    rest = ~held
+    held[rest] = cylinder.contains(positions[rest])
+    return held
 
 
 def _on_sections(cylinder: GeneralizedCylinder, stations: np.ndarray, rng: np.random.Generator) -> FloatArray:
