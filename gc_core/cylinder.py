@@ -1,7 +1,7 @@
 """The generalized cylinder: a curve with a section at every station, and what is inside.
 
 Everything about inside and outside goes through the polygons of `surface()`; between stations
-they are interpolated at equal angle.
+they are interpolated at equal angle (`gc_core.location`).
 """
 
 from __future__ import annotations
@@ -10,31 +10,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from gc_core.arrays import BoolArray, FloatArray, IntArray, finite, read_only, read_only_fields
+from gc_core.arrays import BoolArray, FloatArray, finite, read_only, read_only_fields
 from gc_core.diagnostics import Diagnostics
 from gc_core.frames import arc_length
-from gc_core.radius import radius_at
-
-ON_BOUNDARY = 1e-9
-"""A ratio up to this much above 1 is still inside: rounding [-]."""
-
-CHUNK = 4096
-"""Points that are located at once; bounds the memory of a large query."""
-
-
-@dataclass(frozen=True, eq=False)
-class Crossings:
-    """Where the section planes, swept along the curve, pass through some points."""
-
-    rows: IntArray
-    """(C,) which point."""
-    stations: FloatArray
-    """(C,) fractional station [-]."""
-    angles: FloatArray
-    """(C,) angle in the section from N to B [rad]."""
-    ratios: FloatArray
-    """(C,) distance from the centre by that of the boundary [-]."""
+from gc_core.location import Sweep, inside, most_central, sweep_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,117 +80,64 @@ class GeneralizedCylinder:
         caps = _six_volumes(last, rings[-1], turned[-1]) - _six_volumes(first, rings[0], turned[0])
         return (sides + caps) / 6.0
 
-    def locate(self, points: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    @cached_property
+    def sweep(self) -> Sweep:
+        """The sections, laid out for finding points."""
+        return sweep_of(self.directrix, self.frames, self.radii)
+
+    def locate(self, points: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Find the section in which each point lies most centrally.
 
         Parameters
         ----------
         points : (P, 3) array
-            Any points [m].
+            Any points; P may be 0 [m].
 
         Returns
         -------
         stations : (P,) array
-            Fractional stations from 0 to N - 1; an end where a point lies beyond it [-].
+            Fractional stations from 0 to N - 1. For a point beyond an end that no section holds: that end,
+            unless a section that passes through the point has its centre nearer, both in half-widths [-].
         angles : (P,) array
             From N to B [rad].
         ratios : (P,) array
             Distance from the directrix by that of the boundary, within the section plane:
-            0 on the directrix, 1 on the boundary [-].
+            0 on the directrix, 1 on the boundary. Of a point beyond an end: after projection onto
+            the end's plane, so that it may be below 1 although `contains` says no [-].
 
         Raises
         ------
         ShapeError, NotFiniteError
             If the points are not finite places.
-        """
-        places = finite(points, "points", (None, 3))
-        stations, angles, ratios = self._beyond(places)
-        for begin in range(0, len(places), CHUNK):
-            found = self.crossings(places[begin : begin + CHUNK])
-            order = np.lexsort((found.ratios, found.rows))
-            rows, first = np.unique(found.rows[order], return_index=True)
-            best, rows = order[first], rows + begin
-            stations[rows] = found.stations[best]
-            angles[rows] = found.angles[best]
-            ratios[rows] = found.ratios[best]
-        return stations, angles, ratios
 
-    def contains(self, points: FloatArray) -> BoolArray:
+        Notes
+        -----
+        Where the tube passes near itself, a point may lie in several sections: this is the one with the least
+        ratio, and `contains` is true if any of them holds the point. Between stations the centre and the
+        axes are interpolated linearly and the boundary at equal angle. Memory does not
+        grow with P beyond the results.
+        """
+        return most_central(self.sweep, finite(points, "points", (None, 3)))
+
+    def contains(self, points: ArrayLike) -> BoolArray:
         """Tell which points lie inside.
 
         Parameters
         ----------
         points : (P, 3) array
-            Any points [m].
+            Any points; P may be 0 [m].
 
         Returns
         -------
         (P,) array of bool
-            True on the boundary too; False beyond the first and the last plane.
+            True on the boundary and in the first and the last plane too; False beyond these.
 
         Raises
         ------
         ShapeError, NotFiniteError
             If the points are not finite places.
         """
-        places = finite(points, "points", (None, 3))
-        inside = np.zeros(len(places), dtype=bool)
-        for begin in range(0, len(places), CHUNK):
-            found = self.crossings(places[begin : begin + CHUNK])
-            inside[begin + found.rows[found.ratios <= 1.0 + ON_BOUNDARY]] = True
-        return inside
-
-    def crossings(self, points: FloatArray) -> Crossings:
-        """Find every place where a section plane, swept from station to station, passes through a point.
-
-        Parameters
-        ----------
-        points : (P, 3) array
-            Finite places [m].
-
-        Returns
-        -------
-        Crossings
-            Sorted by point; none for points beyond the ends, several where the tube passes near itself.
-        """
-        normals = self.frames[:, :, 0]
-        height = points @ normals.T - np.einsum("ij,ij->i", self.directrix, normals)
-        slack = 1e-9 * max(float(self.arc_length[-1]), 1e-12)
-        before, after = height[:, :-1], height[:, 1:]
-        rows, index = np.nonzero(
-            ((before >= -slack) & (after <= slack)) | ((before <= slack) & (after >= -slack))
-        )
-        drop = before[rows, index] - after[rows, index]
-        part = np.clip(before[rows, index] / np.where(drop == 0.0, 1.0, drop), 0.0, 1.0)
-        angles, ratios = self._in_section(points[rows], index, part)
-        return Crossings(rows, index + part, angles, ratios)
-
-    def _in_section(
-        self, points: FloatArray, index: IntArray, part: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Angles and ratios (C,) of points (C, 3) in the sections a part of the way past stations `index`."""
-        share = part[:, None]
-        centre = self.directrix[index] * (1.0 - share) + self.directrix[index + 1] * share
-        axes = self.frames[index] * (1.0 - share[..., None]) + self.frames[index + 1] * share[..., None]
-        local = np.einsum("ci,cij->cj", points - centre, axes)
-        angles = np.arctan2(local[:, 2], local[:, 1])
-        edge = radius_at(self.radii, index, angles) * (1.0 - part)
-        edge = edge + radius_at(self.radii, index + 1, angles) * part
-        return angles, np.hypot(local[:, 1], local[:, 2]) / edge
-
-    def _beyond(self, points: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Stations, angles and ratios (P,) in the nearest station, for points no plane passes through."""
-        away = np.concatenate(
-            [
-                np.argmin(np.linalg.norm(part[:, None] - self.directrix, axis=2), axis=1)
-                for part in np.array_split(points, -(-len(points) // CHUNK))
-            ]
-            if len(points)
-            else [np.zeros(0, dtype=np.intp)]
-        )
-        index = np.minimum(away, len(self.directrix) - 2)
-        angles, ratios = self._in_section(points, index, (away - index).astype(np.float64))
-        return away.astype(np.float64), angles, ratios
+        return inside(self.sweep, finite(points, "points", (None, 3)))
 
 
 def section_surface(

@@ -1,0 +1,185 @@
+"""The ratio rule for many starts at once: the one place that writes the samples of runs.
+
+Starts are done in parts small enough for the processor's cache, one coordinate after the other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from gc_core.arrays import FloatArray, IntArray
+from gc_core.cylinder import GeneralizedCylinder
+from gc_core.joining import Joins
+from gc_core.location import CACHED, Sweep, between, edge_distance, edge_weights, in_section
+from gc_core.radius import bins
+
+JOIN_LENGTH = 0.1
+"""An offset fades out over at least this part of the directrix, if so much is left [-]."""
+
+CALM = 2.0
+"""... and over at least this many times its size, if so much is left [-]."""
+
+HURRIED = 0.5
+"""... but with less than a tenth of the directrix left never over less than this many times its size [-]."""
+
+ROUNDING = 1e-12
+"""Offsets up to this part of the length are none [-]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Way:
+    """What S runs have before them."""
+
+    starts: FloatArray
+    """(S, 3) [m]."""
+    stations: FloatArray
+    """(S,) where they join [-]."""
+    begin: FloatArray
+    """(S,) arc length there [m]."""
+    angles: FloatArray
+    """(S,) from N to B [rad]."""
+    ratios: FloatArray
+    """(S,) of the starts [-]."""
+    kept: FloatArray
+    """(S,) with which the rule begins [-]."""
+    final: FloatArray
+    """(S,) with which it ends [-]."""
+    offsets: FloatArray
+    """(S, 3) of the starts from where the rule begins [m]."""
+    reach: FloatArray
+    """(S,) arc length over which these fade out; 0: there are none [m]."""
+
+    def part(self, some: slice) -> Way:
+        """Some of the runs."""
+        return Way(*(getattr(self, field.name)[some] for field in fields(self)))
+
+
+@dataclass(frozen=True, eq=False)
+class _Stretch:
+    """The part of the tube that is run through, at the stations from the earliest join on."""
+
+    stations: FloatArray
+    """(K,) of which only the first may be fractional [-]."""
+    gone: FloatArray
+    """(K,) arc length [m]."""
+    places: FloatArray
+    """(9, K) centre, first and second axis."""
+    narrowness: FloatArray
+    """(M, K) one by the distances of the vertices [1/m]."""
+
+
+def way_of(
+    cylinder: GeneralizedCylinder, starts: FloatArray, joins: Joins, kept: FloatArray, final: FloatArray
+) -> Way:
+    """Find what starts (S, 3) are off the rule's path where they join, and how slowly that fades out."""
+    sweep, gone = cylinder.sweep, cylinder.arc_length
+    begin = np.interp(joins.stations, np.arange(len(gone)), gone)
+    index = np.minimum(joins.stations.astype(np.intp), sweep.last - 1)
+    part = joins.stations - index
+    place = between(sweep.places, index, part)
+    across = np.cos(joins.angles)[:, None] * place[:, 3:6] + np.sin(joins.angles)[:, None] * place[:, 6:]
+    edge = edge_distance(sweep, index, part, joins.angles)
+    offsets = starts - place[:, :3] - (kept * edge)[:, None] * across
+    # A section that passes through the start itself was joined: what is left is rounding.
+    offsets = np.where((joins.projected | (kept != joins.ratios))[:, None], offsets, 0.0)
+    size = np.sqrt(np.einsum("ij,ij->i", offsets, offsets))
+    tenth = JOIN_LENGTH * gone[-1]
+    reach = np.minimum(np.maximum(CALM * size, tenth), gone[-1] - begin)
+    reach = np.maximum(reach, np.minimum(HURRIED * size, tenth))
+    reach = np.where(size > ROUNDING * gone[-1], reach, 0.0)
+    return Way(
+        starts, joins.stations, begin, joins.angles, joins.ratios, kept, final, offsets=offsets, reach=reach
+    )
+
+
+def runs(cylinder: GeneralizedCylinder, way: Way, stations: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Follow the ratio rule from the starts.
+
+    Parameters
+    ----------
+    cylinder : GeneralizedCylinder
+    way : Way
+        Of S runs.
+    stations : (K,) array
+        The earliest join, and all whole stations after it [-].
+
+    Returns
+    -------
+    positions : (S, K, 3) array
+        A run is at its start up to its join [m].
+    ratios : (S, K) array
+        Of these positions in the planes of the stations; up to the join, that of the start [-].
+    """
+    sweep, low = cylinder.sweep, int(stations[0])
+    gone = np.interp(stations, np.arange(len(cylinder.arc_length)), cylinder.arc_length)
+    stretch = _Stretch(stations, gone, sweep.places[low:].T.copy(), sweep.narrowness[low:].T.copy())
+    shape = (len(way.starts), len(stations))
+    positions, ratios = np.empty((*shape, 3)), np.empty(shape)
+    size = max(CACHED // shape[1], 1)
+    for begin in range(0, shape[0], size):
+        some = slice(begin, begin + size)
+        coordinates, ratios[some] = _some_runs(sweep, stretch, way.part(some))
+        for axis in range(3):
+            positions[some, :, axis] = coordinates[axis]
+    return positions, ratios
+
+
+def _some_runs(sweep: Sweep, stretch: _Stretch, way: Way) -> tuple[FloatArray, FloatArray]:
+    """Coordinates (3, S, K) and ratios (S, K)."""
+    ratios = _ratios(stretch, way)
+    coordinates = _rule(sweep, stretch, way.angles, ratios)
+    waiting = stretch.stations <= way.stations[:, None] + 1e-9
+    waiting[:, 0] = True
+    off = np.flatnonzero(way.reach)
+    if off.size:
+        part = (stretch.gone - way.begin[off, None]) / way.reach[off, None]
+        left = np.where(waiting[off], 0.0, fading(np.minimum(part, 1.0)))
+        coordinates[:, off] += left * way.offsets[off].T[:, :, None]
+        rows, columns = np.nonzero(left)
+        ratios = np.where(waiting, way.ratios[:, None], ratios)
+        ratios[off[rows], columns] = _ratios_at(sweep, stretch, coordinates[:, off[rows], columns].T, columns)
+    if waiting[:, 1:].any():
+        coordinates = np.where(waiting, way.starts.T[:, :, None], coordinates)
+    else:
+        coordinates[:, :, 0] = way.starts.T
+    return coordinates, ratios
+
+
+def _ratios(stretch: _Stretch, way: Way) -> FloatArray:
+    """Ratios of the rule: (S, K), or (S, 1) where they stay."""
+    if np.array_equal(way.kept, way.final):
+        return way.kept[:, None]
+    gone, begin = stretch.gone, way.begin[:, None]
+    part = np.clip((gone - begin) / np.maximum(gone[-1] - begin, 1e-12), 0.0, 1.0)
+    return way.final[:, None] + (way.kept - way.final)[:, None] * fading(part)
+
+
+def _rule(sweep: Sweep, stretch: _Stretch, angles: FloatArray, ratios: FloatArray) -> FloatArray:
+    """Coordinates (3, S, K) of the ratio rule."""
+    before = bins(angles, len(sweep.corners))[0]
+    along_first, along_second = np.cos(angles)[:, None], np.sin(angles)[:, None]
+    past, short = edge_weights(sweep.corners, before, along_first[:, 0], along_second[:, 0])
+    distance = past[:, None] * stretch.narrowness[(before + 1) % len(sweep.corners)]
+    distance += short[:, None] * stretch.narrowness[before]
+    np.divide(ratios, distance, out=distance)
+    coordinates = np.empty((3, *distance.shape))
+    for axis in range(3):
+        across = along_first * stretch.places[3 + axis]
+        across += along_second * stretch.places[6 + axis]
+        across *= distance
+        np.add(across, stretch.places[axis], out=coordinates[axis])
+    return coordinates
+
+
+def _ratios_at(sweep: Sweep, stretch: _Stretch, points: FloatArray, columns: IntArray) -> FloatArray:
+    """Ratios (E,) of points (E, 3) in the planes of the stations in some columns (E,)."""
+    station = int(stretch.stations[0]) + columns
+    index = np.minimum(station, sweep.last - 1)
+    return in_section(sweep, points, index, (station - index).astype(np.float64))[1]
+
+
+def fading(part: FloatArray) -> FloatArray:
+    """Fall from 1 at part 0 to 0 at part 1, with level ends."""
+    return (1.0 - part) ** 2 * (1.0 + 2.0 * part)
