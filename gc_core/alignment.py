@@ -12,10 +12,11 @@ from functools import lru_cache
 
 import numpy as np
 
-from gc_core.arrays import FloatArray, interpolated
+from gc_core.arrays import BoolArray, FloatArray, interpolated
 from gc_core.demonstration import Demonstration, Trimmed, sign_continuous
 from gc_core.errors import OpposedDemonstrationsError, UnknownOptionError
 from gc_core.frames import arc_length, smooth
+from gc_core.hooks import without_hooks
 
 ALIGNMENTS = ("time", "arc_length")
 """Ways to put demonstrations in correspondence."""
@@ -38,6 +39,8 @@ class Alignment:
     """(N, 3) their mean, or the curve that was given [m]."""
     times: FloatArray
     """(N,) mean time law, strictly increasing from 0 [s]."""
+    smoothed: BoolArray
+    """(N,) where the directrix leaves out a hook of the mean, see `hooks`."""
 
 
 def align(
@@ -74,11 +77,21 @@ def align(
         mean = np.mean([_at(d, moments) for d, moments in zip(demonstrations, clocks, strict=True)], axis=0)
     else:
         mean = _sampled(directrix, grid)
-    parameter = _even_parameter(mean, grid, stations, max(d.length for d in demonstrations))
+    longest = max(d.length for d in demonstrations)
+    parameter = _even_parameter(mean, grid, stations, longest)
+    bridged = np.zeros(len(grid), dtype=bool)
+    if directrix is None:
+        mean, bridged = without_hooks(mean, grid, parameter)
+    if bridged.any():
+        parameter = _even_parameter(mean, grid, stations, longest)
     moments = np.array([np.interp(parameter, grid, clock) for clock in clocks])
     aligned = np.array([_at(d, m) for d, m in zip(demonstrations, moments, strict=True)])
+    smoothed = np.zeros(stations, dtype=bool)
+    nearest = interpolated(grid[bridged], parameter, np.arange(stations, dtype=np.float64))
+    smoothed[np.rint(nearest).astype(np.intp)] = True
     middle = aligned.mean(axis=0) if directrix is None else _sampled(directrix, parameter)
-    return Alignment(parameter, moments, aligned, middle, _time_law(moments))
+    middle = np.where(smoothed[:, None], _sampled(mean, parameter), middle)
+    return Alignment(parameter, moments, aligned, middle, _time_law(moments), smoothed)
 
 
 def mean_orientations(

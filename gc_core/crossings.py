@@ -14,8 +14,12 @@ from gc_core.frames import arc_length
 KNOTS = 150
 """A demonstration is searched at this many of its samples, then refined on its polyline."""
 
-SEARCH = 0.2
+SEARCH = 0.35
 """A crossing further along than this part of the demonstration belongs to another station [-]."""
+
+
+ON_PLANE = 1e-9
+"""An end this near to a plane lies on it: part of the demonstration's length [-]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +48,10 @@ def effective_points(
     """Cut every demonstration with every section plane.
 
     Among the crossings in the direction of travel, the one nearest in arc length to the place that
-    corresponds by the alignment is taken. Where a demonstration starts after the plane, or ends before it,
-    its end is projected onto the plane and the miss is reported.
+    corresponds by the alignment is taken. A demonstration that begins ahead of the plane crosses it at its
+    beginning, one that ends behind it at its end: so that a crossing does not jump when the plane passes an
+    end. Where there is nothing near, the nearest approach is taken. All three are projected onto the plane
+    and reported.
 
     Parameters
     ----------
@@ -64,15 +70,20 @@ def effective_points(
     """
     offsets = np.einsum("ij,ij->i", alignment.directrix, normals)
     lines = _lines(demonstrations, alignment)
-    points = _ends(lines, alignment.aligned, normals, offsets)
-    station, knot = _nearest_crossings(lines, normals, offsets)
+    points, away = _ends(lines, normals, offsets)
+    station, knot = _nearest_crossings(lines, normals, offsets, away)
     whose = lines.owner[knot]
     low, high = lines.knots[knot], lines.knots[knot + 1]
     points[station, whose] = _refined(lines.path, low, high, normals[station], offsets[station])
     missed = np.ones(points.shape[:2], dtype=bool)
     missed[station, whose] = False
+    lost = missed & (away > SEARCH * lines.lengths)
+    for j in np.flatnonzero(lost.any(axis=0)):
+        rows = np.flatnonzero(lost[:, j])
+        points[rows, j] = _nearest_approach(lines, int(j), rows, normals, offsets)
     # Interpolation leaves a rounding error, projection none: all points are put exactly into the plane.
     height = (points @ normals[:, :, None])[..., 0] - offsets[:, None]
+    missed &= np.abs(height) > ON_PLANE * lines.lengths
     return points - height[..., None] * normals[:, None, :], missed
 
 
@@ -101,7 +112,23 @@ def _lines(demonstrations: tuple[Trimmed, ...], alignment: Alignment) -> _Lines:
     )
 
 
-def _nearest_crossings(lines: _Lines, normals: FloatArray, offsets: FloatArray) -> tuple[IntArray, IntArray]:
+def _ends(lines: _Lines, normals: FloatArray, offsets: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """End (N, n, 3) that lies on the wrong side of a plane, and its distance (N, n) along the demonstration.
+
+    The distance is from the place that corresponds, infinite where no end is on the wrong side.
+    """
+    first, last = lines.path[lines.ends[:, 0]], lines.path[lines.ends[:, 1]]
+    late = normals @ first.T > offsets[:, None]
+    early = normals @ last.T <= offsets[:, None]
+    from_first = np.where(late, lines.wanted.T, np.inf)
+    from_last = np.where(early, lines.lengths - lines.wanted.T, np.inf)
+    points = np.where((from_first <= from_last)[..., None], first, last)
+    return points, np.minimum(from_first, from_last)
+
+
+def _nearest_crossings(
+    lines: _Lines, normals: FloatArray, offsets: FloatArray, nearer_than: FloatArray
+) -> tuple[IntArray, IntArray]:
     """Stations (C,) and the knots before a crossing (C,): at most one for each demonstration and station."""
     behind = normals @ lines.path[lines.knots].T <= offsets[:, None]
     forward = behind[:, :-1] > behind[:, 1:]
@@ -109,13 +136,24 @@ def _nearest_crossings(lines: _Lines, normals: FloatArray, offsets: FloatArray) 
     station, knot = np.divmod(np.flatnonzero(forward), forward.shape[1])
     whose = lines.owner[knot]
     away = np.abs(0.5 * (lines.gone[knot] + lines.gone[knot + 1]) - lines.wanted[whose, station])
-    near = np.flatnonzero(away <= SEARCH * lines.lengths[whose])
+    near = np.flatnonzero(away <= np.minimum(SEARCH * lines.lengths[whose], nearer_than[station, whose]))
     station, knot, away = station[near], knot[near], away[near]
     place = station * len(lines.lengths) + whose[near]
     # Sorted by station and demonstration, then nearest first: the first of each is the one to take.
     order = np.lexsort((away, place))
     taken = order[np.flatnonzero(np.diff(place[order], prepend=-1))]
     return station[taken], knot[taken]
+
+
+def _nearest_approach(
+    lines: _Lines, j: int, rows: IntArray, normals: FloatArray, offsets: FloatArray
+) -> FloatArray:
+    """Knot (K, 3) of demonstration j that comes nearest to the planes `rows` (K,) within the search."""
+    mine = lines.owner == j
+    path, gone = lines.path[lines.knots[mine]], lines.gone[mine]
+    height = np.abs(normals[rows] @ path.T - offsets[rows, None])
+    far = np.abs(gone - lines.wanted[j, rows, None]) > SEARCH * lines.lengths[j]
+    return path[np.argmin(np.where(far, np.inf, height), axis=1)]
 
 
 def _refined(
@@ -131,15 +169,3 @@ def _refined(
     step = np.einsum("ij,ij->i", path[high] - path[low], normals)
     part = np.clip(before / np.where(step > 0.0, step, 1.0), 0.0, 1.0)[:, None]
     return path[low] * (1.0 - part) + path[high] * part
-
-
-def _ends(lines: _Lines, aligned: FloatArray, normals: FloatArray, offsets: FloatArray) -> FloatArray:
-    """Places (N, n, 3) where a plane is missed: the end that it lies beyond, else the aligned place."""
-    places = np.swapaxes(aligned, 0, 1)
-    ahead = (places @ normals[:, :, None])[..., 0] > offsets[:, None]
-    # Only a motion that returns to one place at every knot has no length.
-    part = (lines.wanted / np.maximum(lines.lengths, np.finfo(float).tiny)[:, None]).T
-    starts_late = (ahead & (part <= SEARCH))[..., None]
-    ends_early = (~ahead & (part >= 1.0 - SEARCH))[..., None]
-    first, last = lines.path[lines.ends[:, 0]], lines.path[lines.ends[:, 1]]
-    return np.where(starts_late, first, np.where(ends_early, last, places))

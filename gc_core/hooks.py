@@ -1,0 +1,86 @@
+"""Small hooks in a mean path: where hands go back and forth without getting anywhere.
+
+A path that turns back within a few stations has no section planes there, however they are tilted.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gc_core.arrays import BoolArray, FloatArray, interpolated
+from gc_core.frames import arc_length
+
+LONGEST_HOOK = 0.04
+"""A hook is at most this part of the path long [-]."""
+
+CLOSED = 0.4
+"""... and its ends are nearer to each other than this part of its length [-]."""
+
+SHARP = 0.5
+"""Only paths that turn by more than 60 deg (this cosine) from step to step are searched [-]."""
+
+MOST_HOOKS = 8
+"""Hooks that are taken out of one path."""
+
+
+def without_hooks(path: FloatArray, grid: FloatArray, places: FloatArray) -> tuple[FloatArray, BoolArray]:
+    """Replace the hooks of a path by their chords.
+
+    A hook is the piece that is most longer than its chord, among those that are at most `LONGEST_HOOK` of the
+    path long and whose chord is shorter than `CLOSED` of that; one after the other.
+
+    Parameters
+    ----------
+    path : (n, 3) array
+        Points along the path [m].
+    grid : (n,) array
+        Their parameter, increasing [-].
+    places : (N,) array
+        Parameters of stations at even steps along the path, the first and the last of `grid` among them [-].
+
+    Returns
+    -------
+    path : (n, 3) array
+        The same ends; the same object where there is no hook [m].
+    bridged : (n,) array of bool
+        Which points were moved.
+    """
+    stations = np.stack([interpolated(places, grid, column) for column in path.T], axis=1)
+    bridged = np.zeros(len(path), dtype=bool)
+    if not _turns_sharply(stations):
+        return path, bridged
+    longest = LONGEST_HOOK * float(arc_length(stations)[-1])
+    for _ in range(MOST_HOOKS):
+        first, last = _worst_hook(stations, longest)
+        if first == last:
+            break
+        share = np.linspace(0.0, 1.0, last - first + 1)[:, None]
+        chord = stations[first] * (1.0 - share) + stations[last] * share
+        stations = np.concatenate((stations[:first], chord, stations[last + 1 :]))
+        bridged |= (grid > places[first]) & (grid < places[last])
+    straight = np.stack([interpolated(grid, places, column) for column in stations.T], axis=1)
+    return np.where(bridged[:, None], straight, path), bridged
+
+
+def _turns_sharply(path: FloatArray) -> bool:
+    """Tell whether a path (n, 3) of even steps turns by more than 60 deg at one of its points."""
+    step = np.diff(path, axis=0)
+    size = np.sqrt(np.einsum("ij,ij->i", step, step))
+    cosine = np.einsum("ij,ij->i", step[1:], step[:-1])
+    return bool((cosine < SHARP * size[1:] * size[:-1]).any())
+
+
+def _worst_hook(path: FloatArray, longest: float) -> tuple[int, int]:
+    """First and last point of the hook with the most excess; equal where there is none."""
+    gone = arc_length(path)
+    worst, best = 0.0, (0, 0)
+    furthest = np.searchsorted(gone, gone + longest, side="right") - np.arange(len(path))
+    for lag in range(2, int(furthest.max())):
+        length = gone[lag:] - gone[:-lag]
+        chord = path[lag:] - path[:-lag]
+        excess = length - np.sqrt(np.einsum("ij,ij->i", chord, chord)) / CLOSED
+        excess[length > longest] = 0.0
+        place = int(np.argmax(excess))
+        if excess[place] > worst:
+            worst, best = float(excess[place]), (place, place + lag)
+    return best
