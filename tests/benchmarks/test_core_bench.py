@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 import pytest
 
 from gc_core import Demonstration, GeneralizedCylinder, Landmark, encode, generalize, register, reproduce
+from gc_core.alignment import ALIGNMENTS
+from gc_core.frames import arc_length
+from gc_core.sections import SECTIONS
 from tests.core.shapes import bundle
-
-pytestmark = pytest.mark.benchmark
+from tests.helpers_data import load
 
 
 @pytest.fixture(scope="module")
@@ -18,18 +23,67 @@ def cylinder() -> GeneralizedCylinder:
     return encode(bundle(0, 5, 1500))
 
 
-@pytest.mark.parametrize("align_by", ["time", "arc_length"])
-@pytest.mark.parametrize("section", ["circle", "ellipse", "closed_spline", "hull"])
+Arguments = tuple[tuple[list[Demonstration]], dict[str, Any]]
+
+
+def fresh(shown: list[Demonstration]) -> Callable[[], Arguments]:
+    """Makes the arguments of `encode` anew for each round: what was trimmed once is remembered."""
+    return lambda: (([replace(demonstration) for demonstration in shown],), {})
+
+
+def hairpin(count: int, samples: int) -> list[Demonstration]:
+    """There and back round a bend of 2 cm, shown up to 3 cm apart: wider than the bend."""
+    angle = np.linspace(-np.pi / 2.0, np.pi / 2.0, 60)
+    bend = np.stack((0.3 + 0.02 * np.cos(angle), 0.02 * np.sin(angle), 0.0 * angle), axis=1)
+    corners = np.vstack(([0.0, -0.02, 0.0], bend, [0.0, 0.02, 0.0]))
+    length = arc_length(corners)
+    gone = np.linspace(0.0, length[-1], samples)
+    path = np.stack([np.interp(gone, length, column) for column in corners.T], axis=1)
+    apart = np.random.default_rng(0).uniform(-0.015, 0.015, (count, 3))
+    return [Demonstration(np.linspace(0.0, 4.0, samples), path + shift) for shift in apart]
+
+
+@pytest.mark.benchmark(group="encode at 200 stations x 64 angles, demonstrations never seen before")
+@pytest.mark.parametrize("align_by", ALIGNMENTS)
+@pytest.mark.parametrize("section", sorted(SECTIONS))
 def test_encode_five_demonstrations_of_1500_samples(benchmark: Any, section: str, align_by: str) -> None:
     shown = bundle(0, 5, 1500)
+    ways = partial(encode, section=section, align_by=align_by)
 
-    benchmark(encode, shown, section=section, align_by=align_by)
+    cylinder = benchmark.pedantic(ways, setup=fresh(shown), rounds=30, warmup_rounds=2)
+
+    assert not cylinder.diagnostics.tilt.any()
 
 
-def test_encode_five_demonstrations_of_300_samples(benchmark: Any) -> None:
-    benchmark(encode, bundle(0, 5, 300))
+@pytest.mark.benchmark(group="encode at 200 stations x 64 angles, planes tilted")
+@pytest.mark.parametrize("section", sorted(SECTIONS))
+def test_encode_five_demonstrations_of_a_hairpin(benchmark: Any, section: str) -> None:
+    shown = hairpin(5, 1500)
+
+    cylinder = benchmark.pedantic(
+        partial(encode, section=section), setup=fresh(shown), rounds=15, warmup_rounds=1
+    )
+
+    assert cylinder.diagnostics.tilt.any() or cylinder.diagnostics.crossing.any()
 
 
+@pytest.mark.benchmark(group="encode at 200 stations x 64 angles, planes tilted")
+def test_encode_nine_recordings_of_pouring(benchmark: Any) -> None:
+    benchmark.pedantic(encode, setup=fresh(load("pouring")), rounds=15, warmup_rounds=1)
+
+
+@pytest.mark.benchmark(group="encode: other numbers of demonstrations and samples")
+@pytest.mark.parametrize(("count", "samples"), [(5, 300), (100, 1500), (5, 100_000)])
+def test_encode(benchmark: Any, count: int, samples: int) -> None:
+    benchmark.pedantic(encode, setup=fresh(bundle(0, count, samples)), rounds=5, warmup_rounds=1)
+
+
+@pytest.mark.benchmark(group="encode: demonstrations known")
+def test_encode_the_same_five_of_1500_samples_again(benchmark: Any) -> None:
+    benchmark(encode, bundle(0, 5, 1500))
+
+
+@pytest.mark.benchmark(group="encode: demonstrations known")
 def test_encode_again_when_one_of_five_demonstrations_changed(benchmark: Any) -> None:
     shown = bundle(0, 5, 300)
     encode(shown)
@@ -40,6 +94,7 @@ def test_encode_again_when_one_of_five_demonstrations_changed(benchmark: Any) ->
     benchmark(again)
 
 
+@pytest.mark.benchmark(group="reproduce")
 @pytest.mark.parametrize("count", [1, 5, 1000])
 def test_reproduce(benchmark: Any, cylinder: GeneralizedCylinder, count: int) -> None:
     ray = cylinder.surface()[0, np.arange(count) % 64] - cylinder.directrix[0]
@@ -48,6 +103,7 @@ def test_reproduce(benchmark: Any, cylinder: GeneralizedCylinder, count: int) ->
     benchmark(reproduce, cylinder, starts)
 
 
+@pytest.mark.benchmark(group="generalize")
 @pytest.mark.parametrize("count", [1, 2, 4])
 def test_generalize_by_landmarks(benchmark: Any, cylinder: GeneralizedCylinder, count: int) -> None:
     source = cylinder.directrix[np.linspace(0, 199, count).astype(int)]
@@ -56,6 +112,7 @@ def test_generalize_by_landmarks(benchmark: Any, cylinder: GeneralizedCylinder, 
     benchmark(lambda: generalize(cylinder, register(source, target)))
 
 
+@pytest.mark.benchmark(group="generalize")
 def test_generalize_by_two_frames(benchmark: Any, cylinder: GeneralizedCylinder) -> None:
     ends = cylinder.directrix[[0, -1]]
     source = [Landmark(end, np.array([1.0, 0.0, 0.0, 0.0])) for end in ends]
@@ -67,5 +124,6 @@ def test_generalize_by_two_frames(benchmark: Any, cylinder: GeneralizedCylinder)
     benchmark(lambda: generalize(cylinder, register(source, target)))
 
 
+@pytest.mark.benchmark(group="locate")
 def test_locate_a_thousand_points(benchmark: Any, cylinder: GeneralizedCylinder) -> None:
     benchmark(cylinder.locate, cylinder.surface()[::10, ::2].reshape(-1, 3))
