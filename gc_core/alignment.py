@@ -8,18 +8,21 @@ of stations and `times` keeps the taught speed.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
-from gc_core.arrays import BoolArray, FloatArray, interpolated
+from gc_core.arrays import BoolArray, FloatArray, interpolated, remembered
 from gc_core.demonstration import Demonstration, Trimmed, sign_continuous
 from gc_core.errors import OpposedDemonstrationsError, UnknownOptionError
 from gc_core.frames import arc_length, smooth
 from gc_core.hooks import without_hooks
+from gc_core.warping import warped_together
 
-ALIGNMENTS = ("time", "arc_length")
+ALIGNMENTS = ("time", "arc_length", "dtw")
 """Ways to put demonstrations in correspondence."""
+
+WARPED = 200
+"""Dynamic time warping matches this many places of each demonstration, evenly spaced along it."""
 
 GRIPPER_HYSTERESIS = 0.1
 """The gripper changes when the share of demonstrations is this far beyond one half [-]."""
@@ -53,10 +56,12 @@ def align(
     demonstrations : tuple of Trimmed
     stations : int
         Number of stations N.
-    align_by : {"time", "arc_length"}
-        What the common parameter is: the part of the duration or of the path gone through.
+    align_by : {"time", "arc_length", "dtw"}
+        What the common parameter is: the part of the duration or of the path gone through, or of a middle
+        curve onto which all are warped by their places.
     directrix : (K, 3) array or None
-        Curve to use in place of the mean, evenly sampled in the common parameter [m].
+        Curve to use in place of the mean, evenly sampled in the common parameter [m]. By "dtw" the
+        demonstrations are warped onto it.
 
     Returns
     -------
@@ -72,9 +77,11 @@ def align(
     if align_by not in ALIGNMENTS:
         raise UnknownOptionError("align_by", align_by, ALIGNMENTS)
     grid = np.linspace(0.0, 1.0, 4 * stations + 1)
-    clocks = [_clock(demonstration, align_by, len(grid)) for demonstration in demonstrations]
+    clocks = _clocks(demonstrations, align_by, grid, directrix)
     if directrix is None:
         mean = np.mean([_at(d, moments) for d, moments in zip(demonstrations, clocks, strict=True)], axis=0)
+        # A place on the directrix stands for a station's length of path, not for one noisy sample.
+        mean = smooth(mean, len(mean) // 200)
     else:
         mean = _sampled(directrix, grid)
     longest = max(d.length for d in demonstrations)
@@ -89,9 +96,7 @@ def align(
     smoothed = np.zeros(stations, dtype=bool)
     nearest = interpolated(grid[bridged], parameter, np.arange(stations, dtype=np.float64))
     smoothed[np.rint(nearest).astype(np.intp)] = True
-    middle = aligned.mean(axis=0) if directrix is None else _sampled(directrix, parameter)
-    middle = np.where(smoothed[:, None], _sampled(mean, parameter), middle)
-    return Alignment(parameter, moments, aligned, middle, _time_law(moments), smoothed)
+    return Alignment(parameter, moments, aligned, _sampled(mean, parameter), _time_law(moments), smoothed)
 
 
 def mean_orientations(
@@ -154,16 +159,46 @@ def majority_gripper(
     return np.where(share[latest] > 0.5, high, low)
 
 
-@lru_cache(maxsize=256)
-def _clock(demonstration: Trimmed, align_by: str, count: int) -> FloatArray:
-    """Moments (count,) [s] of a demonstration at evenly spaced common parameters; remembered like `trim`."""
-    grid = np.linspace(0.0, 1.0, count)
+def _clocks(
+    demonstrations: tuple[Trimmed, ...], align_by: str, grid: FloatArray, directrix: FloatArray | None
+) -> list[FloatArray]:
+    """Moments (K,) [s] of each demonstration at common parameters (K,)."""
     if align_by == "time":
-        return grid * demonstration.times[-1]
+        return [grid * demonstration.times[-1] for demonstration in demonstrations]
+    if align_by == "arc_length":
+        return [_walked(demonstration, grid) for demonstration in demonstrations]
+    even = np.linspace(0.0, 1.0, WARPED)
+    moments = [_walked(demonstration, even) for demonstration in demonstrations]
+    paths = [_at(d, m) for d, m in zip(demonstrations, moments, strict=True)]
+    reference, place = (None, grid) if directrix is None else _evenly(directrix, even, grid)
+    warps = [warp / (WARPED - 1.0) for warp in warped_together(paths, reference)]
+    return [
+        interpolated(interpolated(place, even, warp), even, moment)
+        for warp, moment in zip(warps, moments, strict=True)
+    ]
+
+
+def _evenly(curve: FloatArray, even: FloatArray, grid: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Points (W, 3) at even parts (W,) of a curve's length, and the parts (K,) at its parameters (K,)."""
+    samples = np.linspace(0.0, 1.0, len(curve))
+    gone = arc_length(curve)
+    part = gone / max(float(gone[-1]), np.finfo(float).tiny) + 1e-9 * samples
+    part = part / part[-1]
+    return _sampled(curve, interpolated(even, part, samples)), interpolated(grid, samples, part)
+
+
+def _walked(demonstration: Trimmed, part: FloatArray) -> FloatArray:
+    """Moments (K,) [s] at which a demonstration has gone through parts (K,) of its path."""
+    gone = _path_gone(demonstration)
+    return interpolated(part * gone[-1], gone, demonstration.times)
+
+
+@remembered
+def _path_gone(demonstration: Trimmed) -> FloatArray:
+    """Length (T,) gone at each sample, strictly increasing [m]; remembered, as `trim` is."""
     # A sensor's noise must not count as path while the hand pauses.
     gone = arc_length(smooth(demonstration.positions, len(demonstration.positions) // 200))
-    gone = gone + 1e-9 * gone[-1] * np.linspace(0.0, 1.0, len(gone))
-    return interpolated(grid * gone[-1], gone, demonstration.times)
+    return gone + 1e-9 * gone[-1] * np.linspace(0.0, 1.0, len(gone))
 
 
 def _at(demonstration: Trimmed, moments: FloatArray) -> FloatArray:
@@ -185,7 +220,7 @@ def _sampled(curve: FloatArray, parameter: FloatArray) -> FloatArray:
 
 def _even_parameter(mean: FloatArray, grid: FloatArray, stations: int, longest: float) -> FloatArray:
     """Parameters (N,) at which the mean curve has gone through equal lengths."""
-    gone = arc_length(smooth(mean, len(mean) // 100))
+    gone = arc_length(mean)
     if gone[-1] <= 1e-3 * longest:
         raise OpposedDemonstrationsError(float(gone[-1]))
     gone = gone + 1e-6 * gone[-1] * grid

@@ -35,6 +35,9 @@ SHORTEST_STEP = 1e-15
 STATIONARY_SPEED = 0.02
 """The tool stands still below this part of its own top speed, the 90th percentile while it moves [-]."""
 
+STATIONARY_REACH = 0.01
+"""What stands still stays within this part of the motion's extent; slow approaches are no stops [-]."""
+
 MOST_SAMPLES = 10_000
 """A demonstration with more samples is computed with about this many of them."""
 
@@ -111,7 +114,8 @@ def trim(demonstration: Demonstration, threshold: float = STATIONARY_SPEED) -> T
     """Cut the ends in which the tool stands still.
 
     The speed at a sample is taken over one hundredth of the samples to either side,
-    so that a sensor's noise is not taken for motion. The first and the last place are
+    so that a sensor's noise is not taken for motion. What leaves an end's neighbourhood,
+    however slowly, is not cut. The first and the last place are
     kept: they are joined to the motion at the threshold speed. Of more than `MOST_SAMPLES`
     samples, those that carry the shape are taken. The result is remembered as long as the
     demonstration lives: while one is being corrected, the others are trimmed already.
@@ -137,10 +141,19 @@ def trim(demonstration: Demonstration, threshold: float = STATIONARY_SPEED) -> T
     moving = np.flatnonzero(speed > limit)
     if not moving.size:
         moving = np.array([0, len(times) - 1])
-    first, last = int(moving[0]), int(moving[-1])
+    nearby = STATIONARY_REACH * float(np.linalg.norm(np.ptp(positions, axis=0)))
+    first = _last_nearby(positions[: int(moving[0]) + 1], nearby)
+    last = len(times) - 1 - _last_nearby(positions[: int(moving[-1]) - 1 : -1], nearby)
     if first == last:
         first, last = max(first - 1, 0), min(last + 1, len(times) - 1)
     return _joined(demonstration, first, last, limit)
+
+
+def _last_nearby(positions: FloatArray, nearby: float) -> int:
+    """Last of the positions (K, 3) before one is further than nearby [m] from the first of them."""
+    away = positions - positions[0]
+    far = np.flatnonzero(np.einsum("ij,ij->i", away, away) > nearby**2)
+    return int(far[0]) - 1 if far.size else len(positions) - 1
 
 
 def _top_speed(speed: FloatArray, threshold: float) -> float:

@@ -21,7 +21,7 @@ from gc_core import (
     ZeroQuaternionError,
     encode,
 )
-from gc_core.demonstration import MOST_SAMPLES, trim
+from gc_core.demonstration import MOST_SAMPLES, STATIONARY_REACH, trim
 from tests.core.shapes import bundle, seeds
 
 T = np.linspace(0.0, 1.0, 11)
@@ -198,3 +198,12 @@ def test_huge_quaternions_become_unit_ones() -> None:
     orientations = Demonstration(T, P, orientations=np.full((11, 4), 1e200)).orientations
 
     np.testing.assert_allclose(orientations, 0.5)
+
+
+def test_a_slow_approach_is_no_stop() -> None:
+    fast = np.outer(np.linspace(0.0, 1.0, 200), [0.5, 0.0, 0.0])
+    slow = fast[-1] + np.outer(np.linspace(0.0, 1.0, 500)[1:], [0.0, 0.0, -0.02])
+    path = np.concatenate((fast, slow))
+    cut = path[int(trim(Demonstration(0.01 * np.arange(699), path)).kept[-2]) :]
+
+    assert np.linalg.norm(cut - path[-1], axis=1).max() < 1.05 * STATIONARY_REACH * 0.5

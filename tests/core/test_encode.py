@@ -319,7 +319,7 @@ def test_the_gripper_follows_the_majority_and_switches_once() -> None:
     ("error", "options"),
     [
         (UnknownOptionError, {"section": "square"}),
-        (UnknownOptionError, {"align_by": "dtw"}),
+        (UnknownOptionError, {"align_by": "distance"}),
         (UnknownOptionError, {"directrix": "median"}),
         (InvalidSettingError, {"stations": 3}),
         (InvalidSettingError, {"stations": np.nan}),
