@@ -122,6 +122,12 @@ def constrain(reproduction: Reproduction, constraints: Sequence[Constraint]) -> 
     Reproduction
         The same object when no sample is behind a plane. Ratios stay those of the unconstrained run. Where
         rules contradict each other, the violation is as small as one of their corners allows.
+
+    References
+    ----------
+    .. [1] S. R. Ahmadzadeh, M. A. Rana, S. Chernova. Generalized Cylinders for Learning, Reproduction,
+       Generalization, and Refinement of Robot Skills. RSS 2017, Sec. VI-B (it does not define the planes).
+       doi:10.15607/RSS.2017.XIII.021
     """
     if not constraints:
         return reproduction

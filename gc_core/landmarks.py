@@ -37,7 +37,18 @@ class Landmark:
 
 
 def quaternion_matrices(quaternions: FloatArray) -> FloatArray:
-    """Turn unit quaternions (..., 4) w, x, y, z into rotation matrices (..., 3, 3)."""
+    """Turn quaternions into rotation matrices.
+
+    Parameters
+    ----------
+    quaternions : (..., 4) array
+        Unit quaternions w, x, y, z [-].
+
+    Returns
+    -------
+    (..., 3, 3) array
+        Columns are the turned axes [-].
+    """
     w, x, y, z = np.moveaxis(quaternions, -1, 0)
     rows = (
         (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
@@ -48,19 +59,56 @@ def quaternion_matrices(quaternions: FloatArray) -> FloatArray:
 
 
 def landmarks(given: Sequence[Landmark] | FloatArray) -> list[Landmark]:
-    """Take places (L, 3) [m] or landmarks as landmarks."""
+    """Take places or landmarks as landmarks.
+
+    Parameters
+    ----------
+    given : sequence of L Landmark, or (L, 3) array
+        [m].
+
+    Returns
+    -------
+    list of L Landmark
+        Places have no orientation.
+
+    Raises
+    ------
+    ShapeError, NotFiniteError
+        If they are not finite places.
+    """
     if isinstance(given, np.ndarray) and given.ndim != 2 and given.size:
         raise ShapeError("landmarks", "(any, 3)", given.shape)
     return [item if isinstance(item, Landmark) else Landmark(item) for item in given]
 
 
 def rotation(landmark: Landmark) -> FloatArray:
-    """Axes (3, 3) of a landmark as columns; the base frame's when it has none."""
+    """Tell which way a landmark is turned.
+
+    Parameters
+    ----------
+    landmark : Landmark
+
+    Returns
+    -------
+    (3, 3) array
+        Its axes in the base frame as columns; those of the base frame when it has no orientation [-].
+    """
     return np.eye(3) if landmark.orientation is None else quaternion_matrices(landmark.orientation)
 
 
 def acting_points(source: Landmark, target: Landmark) -> tuple[FloatArray, FloatArray]:
-    """Points (1, 3) or (7, 3) through which a landmark acts, before and after."""
+    """Find the points through which a landmark acts on a map.
+
+    Parameters
+    ----------
+    source, target : Landmark
+        Before and after it was moved.
+
+    Returns
+    -------
+    before, after : (1, 3) or (7, 3) arrays
+        Its place; and, if it has an orientation before and after, `FRAME_ARM` out on each half-axis [m].
+    """
     if source.orientation is None or target.orientation is None:
         return source.position[None], target.position[None]
     arms = FRAME_ARM * np.concatenate((np.zeros((1, 3)), np.eye(3), -np.eye(3)))

@@ -38,6 +38,16 @@ def soft_correction(positions: ArrayLike, index: int, displacement: ArrayLike, w
         If the path or the displacement are not finite places.
     InvalidSettingError
         If there is no such sample, or the width is not a length.
+
+    Notes
+    -----
+    The paper's teacher reshapes a target trajectory by pushing the arm in compliant replay [1]_; this is the
+    same with a pointer, which holds the path at one place only.
+
+    References
+    ----------
+    .. [1] S. R. Ahmadzadeh, M. A. Rana, S. Chernova. Generalized Cylinders for Learning, Reproduction,
+       Generalization, and Refinement of Robot Skills. RSS 2017, Sec. VI-A. doi:10.15607/RSS.2017.XIII.021
     """
     path = finite(positions, "positions", (None, 3))
     pull = finite(displacement, "displacement", (3,))

@@ -102,7 +102,18 @@ class ThinPlateSpline:
         return _fit(before, after, regularization)
 
     def __call__(self, points: ArrayLike) -> FloatArray:
-        """Map points (..., 3) [m] to points (..., 3) [m]."""
+        """Map points.
+
+        Parameters
+        ----------
+        points : (..., 3) array
+            [m].
+
+        Returns
+        -------
+        (..., 3) array
+            Where they go [m].
+        """
         points = np.asarray(points, dtype=np.float64)
         mapped = (points - self.origin) @ self.linear.T + self.image
         if not len(self.weights):
