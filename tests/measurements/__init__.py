@@ -1,1 +1,1 @@
-"""Commands that measure what a decision rests on; run by hand, not by pytest."""
+"""Commands that measure what a decision rests on, run by hand; what they measure with is tested."""
