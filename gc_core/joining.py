@@ -9,7 +9,7 @@ import numpy as np
 from gc_core.arrays import BoolArray, FloatArray, IntArray
 from gc_core.cylinder import GeneralizedCylinder
 from gc_core.errors import InvalidSettingError
-from gc_core.location import Passages, chunks, in_section, passages
+from gc_core.location import Passages, at_once, cut, in_section, passages
 
 LATER = 0.05
 """A start outside joins a later station only when it lies beyond this part of the directrix [-]."""
@@ -86,7 +86,7 @@ def entrances(cylinder: GeneralizedCylinder, starts: FloatArray) -> IntArray:
     middle = cylinder.directrix.mean(axis=0)
     centres, gone = cylinder.directrix - middle, cylinder.arc_length
     index = np.zeros(len(starts), dtype=np.intp)
-    for begin, some in chunks(cylinder.sweep, starts):
+    for begin, some in cut(starts, at_once(cylinder.sweep)):
         near = some - middle
         square = (near * near).sum(axis=1)[:, None] + (centres * centres).sum(axis=1) - 2.0 * near @ centres.T
         nearest = np.argmin(square, axis=1)

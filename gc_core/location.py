@@ -24,6 +24,9 @@ ON_PLANE = 1e-9
 CACHED = 2**15
 """Distances of points to planes that are looked at in one go: they stay in the processor's cache."""
 
+BLOCK = 4096
+"""Points that are located at once: bounds the memory of a large query."""
+
 FARTHEST = 1e100
 """Coordinates beyond this are cut: their products would not be finite [m]."""
 
@@ -110,15 +113,18 @@ def passages(sweep: Sweep, points: FloatArray) -> Passages:
         None for points beyond the ends, several where the tube passes near itself or the point lies near
         the centre of a bend.
     """
-    found = [_shifted(_passages(sweep, some), begin) for begin, some in chunks(sweep, points)]
-    return found[0] if len(found) == 1 else _joined(found)
+    points = np.clip(points, -FARTHEST, FARTHEST)
+    parts = list(_crossed(sweep, points))
+    rows, index, part = (np.concatenate(each) for each in zip(*parts, strict=True))
+    angles, ratios = in_section(sweep, points[rows], index, part)
+    return Passages(rows, index + part, angles, ratios)
 
 
 def inside(sweep: Sweep, points: FloatArray) -> BoolArray:
     """Tell which points (P, 3) some section holds on its way, (P,) array."""
     held = np.zeros(len(points), dtype=bool)
-    for begin, some in chunks(sweep, points):
-        found = _passages(sweep, some)
+    for begin, some in cut(points, BLOCK):
+        found = passages(sweep, some)
         held[begin + found.rows[found.inside]] = True
     return held
 
@@ -142,8 +148,9 @@ def most_central(sweep: Sweep, points: FloatArray) -> tuple[FloatArray, FloatArr
         [-], [rad], [-].
     """
     best = np.zeros((3, len(points)))
-    for begin, some in chunks(sweep, points):
-        found = _passages(sweep, some)
+    for begin, block in cut(points, BLOCK):
+        some = np.clip(block, -FARTHEST, FARTHEST)
+        found = passages(sweep, some)
         held = np.zeros(len(some), dtype=bool)
         held[found.rows[found.inside]] = True
         ends, away = _beyond_ends(sweep, some, np.flatnonzero(~held))
@@ -155,16 +162,22 @@ def most_central(sweep: Sweep, points: FloatArray) -> tuple[FloatArray, FloatArr
     return best[0], best[1], best[2]
 
 
-def chunks(sweep: Sweep, points: FloatArray) -> Iterator[tuple[int, FloatArray]]:
-    """Cut points (P, 3) into parts that are looked at in one go: where each begins, and the part itself."""
-    size = max(CACHED // len(sweep.places), 1)
+def cut(points: FloatArray, size: int) -> Iterator[tuple[int, FloatArray]]:
+    """Cut points (P, 3) into at least one part: where each begins, and the part itself."""
     for begin in range(0, max(len(points), 1), size):
-        yield begin, np.clip(points[begin : begin + size], -FARTHEST, FARTHEST)
+        yield begin, points[begin : begin + size]
+
+
+def at_once(sweep: Sweep) -> int:
+    """Tell of how many points the distances to all planes stay in the processor's cache."""
+    return max(CACHED // len(sweep.places), 1)
 
 
 def heights(sweep: Sweep, points: FloatArray) -> FloatArray:
     """Signed distances (P, N) of points (P, 3) from the section planes [m]."""
-    return points @ sweep.planes[:3] + sweep.planes[3]
+    height = points @ sweep.planes[:3]
+    height += sweep.planes[3]
+    return height
 
 
 def in_section(
@@ -187,13 +200,20 @@ def in_section(
     angles, ratios : (C,) arrays
         [rad], [-].
     """
-    x, y = _coordinates(points, between(sweep.places, index, part))
+    place = between(sweep.places, index, part)
+    away = points - place[:, :3]
+    x, y = (np.einsum("ij,ij->i", away, axis) for axis in (place[:, 3:6], place[:, 6:]))
     angles = np.arctan2(y, x)
     before = bins(angles, len(sweep.corners))[0]
     here, there = (_ray_ratio(sweep, rows, before, x, y) for rows in (index, index + 1))
     # Distances of the boundary are interpolated; these are one by them, in units of the point's own distance.
     mixed = (1.0 - part) * there + part * here
     return angles, here * there / np.maximum(mixed, 1e-300)
+
+
+def ratios_in_plane(sweep: Sweep, rows: IntArray, x: FloatArray, y: FloatArray) -> FloatArray:
+    """Ratios (C,) of points (x, y) [m] in the sections of stations `rows` (C,)."""
+    return _ray_ratio(sweep, rows, bins(np.arctan2(y, x), len(sweep.corners))[0], x, y)
 
 
 def edge_distance(sweep: Sweep, index: IntArray, part: FloatArray, angles: FloatArray) -> FloatArray:
@@ -210,16 +230,17 @@ def between(table: FloatArray, index: IntArray, part: FloatArray) -> FloatArray:
     return table[index] * (1.0 - share) + table[index + 1] * share
 
 
-def _passages(sweep: Sweep, points: FloatArray) -> Passages:
-    height = heights(sweep, points)
-    above, below = height > sweep.slack, height < -sweep.slack
-    apart = (above[:, :-1] & above[:, 1:]) | (below[:, :-1] & below[:, 1:])
-    rows, index = np.divmod(np.flatnonzero(~apart), max(sweep.last, 1))
-    before, after = height[rows, index], height[rows, index + 1]
-    drop = before - after
-    part = np.clip(before / np.where(drop == 0.0, 1.0, drop), 0.0, 1.0)
-    angles, ratios = in_section(sweep, points[rows], index, part)
-    return Passages(rows, index + part, angles, ratios)
+def _crossed(sweep: Sweep, points: FloatArray) -> Iterator[tuple[IntArray, IntArray, FloatArray]]:
+    """Which points planes pass through, after which stations, and which part of the way to the next."""
+    for begin, some in cut(points, at_once(sweep)):
+        height = heights(sweep, some)
+        above, below = height > sweep.slack, height < -sweep.slack
+        apart = (above[:, :-1] & above[:, 1:]) | (below[:, :-1] & below[:, 1:])
+        rows, index = np.divmod(np.flatnonzero(~apart), sweep.last)
+        before, after = height[rows, index], height[rows, index + 1]
+        drop = before - after
+        part = np.clip(before / np.where(drop == 0.0, 1.0, drop), 0.0, 1.0)
+        yield rows + begin, index, part
 
 
 def _beyond_ends(sweep: Sweep, points: FloatArray, rows: IntArray) -> tuple[Passages, FloatArray]:
@@ -239,17 +260,6 @@ def _beyond_ends(sweep: Sweep, points: FloatArray, rows: IntArray) -> tuple[Pass
     return _joined(ends), np.concatenate(away)
 
 
-def _coordinates(points: FloatArray, places: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Coordinates (C,) of points (C, 3) along the two axes of places (C, 9), which need not be units."""
-    away, first, second = points - places[:, :3], places[:, 3:6], places[:, 6:]
-    along_first, along_second = (np.einsum("ij,ij->i", away, axis) for axis in (first, second))
-    square_first, square_second = (np.einsum("ij,ij->i", axis, axis) for axis in (first, second))
-    common = np.einsum("ij,ij->i", first, second)
-    area = np.maximum(square_first * square_second - common * common, 1e-12)
-    x = (along_first * square_second - along_second * common) / area
-    return x, (along_second * square_first - along_first * common) / area
-
-
 def _ray_ratio(sweep: Sweep, rows: IntArray, before: IntArray, x: FloatArray, y: FloatArray) -> FloatArray:
     """Distances of (x, y) from the centres of sections by those of the edges after vertices `before`."""
     count = len(sweep.corners)
@@ -265,10 +275,6 @@ def edge_weights(
     start, end = corners[before], corners[(before + 1) % len(corners)]
     step = np.sin(2.0 * np.pi / len(corners))
     return (start[:, 0] * y - start[:, 1] * x) / step, (x * end[:, 1] - y * end[:, 0]) / step
-
-
-def _shifted(found: Passages, begin: int) -> Passages:
-    return Passages(found.rows + begin, found.stations, found.angles, found.ratios) if begin else found
 
 
 def _joined(parts: list[Passages]) -> Passages:

@@ -9,10 +9,10 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from gc_core.arrays import FloatArray, IntArray
+from gc_core.arrays import FloatArray, IntArray, read_only
 from gc_core.cylinder import GeneralizedCylinder
 from gc_core.joining import Joins
-from gc_core.location import CACHED, Sweep, between, edge_distance, edge_weights, in_section
+from gc_core.location import CACHED, Sweep, between, edge_distance, edge_weights, ratios_in_plane
 from gc_core.radius import bins
 
 JOIN_LENGTH = 0.1
@@ -64,8 +64,10 @@ class _Stretch:
     """(K,) of which only the first may be fractional [-]."""
     gone: FloatArray
     """(K,) arc length [m]."""
-    places: FloatArray
-    """(9, K) centre, first and second axis."""
+    centres: FloatArray
+    """(3, K) coordinates of the centres [m]."""
+    axes: FloatArray
+    """(3, 2, K) coordinates of the first and the second axis [-]."""
     narrowness: FloatArray
     """(M, K) one by the distances of the vertices [1/m]."""
 
@@ -108,43 +110,51 @@ def runs(cylinder: GeneralizedCylinder, way: Way, stations: FloatArray) -> tuple
     Returns
     -------
     positions : (S, K, 3) array
-        A run is at its start up to its join [m].
+        Read-only. A run is at its start up to its join [m].
     ratios : (S, K) array
-        Of these positions in the planes of the stations; up to the join, that of the start [-].
+        Read-only. Of these positions in the planes of the stations; up to the join, that of the start [-].
     """
     sweep, low = cylinder.sweep, int(stations[0])
     gone = np.interp(stations, np.arange(len(cylinder.arc_length)), cylinder.arc_length)
-    stretch = _Stretch(stations, gone, sweep.places[low:].T.copy(), sweep.narrowness[low:].T.copy())
+    places = sweep.places[low:].T.copy()
+    axes = np.stack((places[3:6], places[6:]), axis=1)
+    stretch = _Stretch(stations, gone, places[:3], axes, sweep.narrowness[low:].T.copy())
     shape = (len(way.starts), len(stations))
-    positions, ratios = np.empty((*shape, 3)), np.empty(shape)
+    positions = np.empty((*shape, 3))
+    stay = not way.reach.any() and np.array_equal(way.kept, way.final)
+    ratios = np.broadcast_to(read_only(way.kept)[:, None], shape) if stay else np.empty(shape)
     size = max(CACHED // shape[1], 1)
     for begin in range(0, shape[0], size):
         some = slice(begin, begin + size)
-        coordinates, ratios[some] = _some_runs(sweep, stretch, way.part(some))
-        for axis in range(3):
-            positions[some, :, axis] = coordinates[axis]
+        part = _some_runs(sweep, stretch, way.part(some), out=np.moveaxis(positions[some], 2, 0))
+        if not stay:
+            ratios[some] = part
+    positions.setflags(write=False)
+    ratios.setflags(write=False)
     return positions, ratios
 
 
-def _some_runs(sweep: Sweep, stretch: _Stretch, way: Way) -> tuple[FloatArray, FloatArray]:
-    """Coordinates (3, S, K) and ratios (S, K)."""
+def _some_runs(sweep: Sweep, stretch: _Stretch, way: Way, *, out: FloatArray) -> FloatArray:
+    """Ratios (S, K) or (S, 1); writes the coordinates (3, S, K)."""
     ratios = _ratios(stretch, way)
-    coordinates = _rule(sweep, stretch, way.angles, ratios)
+    _rule(sweep, stretch, way.angles, ratios, out=out)
     waiting = stretch.stations <= way.stations[:, None] + 1e-9
     waiting[:, 0] = True
     off = np.flatnonzero(way.reach)
     if off.size:
         part = (stretch.gone - way.begin[off, None]) / way.reach[off, None]
         left = np.where(waiting[off], 0.0, fading(np.minimum(part, 1.0)))
-        coordinates[:, off] += left * way.offsets[off].T[:, :, None]
+        coordinates = out[:, off] + left * way.offsets[off].T[:, :, None]
+        out[:, off] = coordinates
         rows, columns = np.nonzero(left)
         ratios = np.where(waiting, way.ratios[:, None], ratios)
-        ratios[off[rows], columns] = _ratios_at(sweep, stretch, coordinates[:, off[rows], columns].T, columns)
-    if waiting[:, 1:].any():
-        coordinates = np.where(waiting, way.starts.T[:, :, None], coordinates)
-    else:
-        coordinates[:, :, 0] = way.starts.T
-    return coordinates, ratios
+        ratios[off[rows], columns] = _ratios_of(sweep, stretch, coordinates, rows, columns)
+    late = waiting[:, 1:].any()
+    for axis in range(3):
+        out[axis, :, 0] = way.starts[:, axis]
+        if late:
+            np.copyto(out[axis], way.starts[:, axis, None], where=waiting)
+    return ratios
 
 
 def _ratios(stretch: _Stretch, way: Way) -> FloatArray:
@@ -156,28 +166,30 @@ def _ratios(stretch: _Stretch, way: Way) -> FloatArray:
     return way.final[:, None] + (way.kept - way.final)[:, None] * fading(part)
 
 
-def _rule(sweep: Sweep, stretch: _Stretch, angles: FloatArray, ratios: FloatArray) -> FloatArray:
-    """Coordinates (3, S, K) of the ratio rule."""
+def _rule(
+    sweep: Sweep, stretch: _Stretch, angles: FloatArray, ratios: FloatArray, *, out: FloatArray
+) -> None:
+    """Write the coordinates (3, S, K) of the ratio rule."""
     before = bins(angles, len(sweep.corners))[0]
-    along_first, along_second = np.cos(angles)[:, None], np.sin(angles)[:, None]
-    past, short = edge_weights(sweep.corners, before, along_first[:, 0], along_second[:, 0])
+    along = np.stack((np.cos(angles), np.sin(angles)), axis=1)
+    past, short = edge_weights(sweep.corners, before, along[:, 0], along[:, 1])
     distance = past[:, None] * stretch.narrowness[(before + 1) % len(sweep.corners)]
     distance += short[:, None] * stretch.narrowness[before]
     np.divide(ratios, distance, out=distance)
-    coordinates = np.empty((3, *distance.shape))
+    across = np.empty_like(distance)
     for axis in range(3):
-        across = along_first * stretch.places[3 + axis]
-        across += along_second * stretch.places[6 + axis]
+        np.matmul(along, stretch.axes[axis], out=across)
         across *= distance
-        np.add(across, stretch.places[axis], out=coordinates[axis])
-    return coordinates
+        np.add(across, stretch.centres[axis], out=out[axis])
 
 
-def _ratios_at(sweep: Sweep, stretch: _Stretch, points: FloatArray, columns: IntArray) -> FloatArray:
-    """Ratios (E,) of points (E, 3) in the planes of the stations in some columns (E,)."""
-    station = int(stretch.stations[0]) + columns
-    index = np.minimum(station, sweep.last - 1)
-    return in_section(sweep, points, index, (station - index).astype(np.float64))[1]
+def _ratios_of(
+    sweep: Sweep, stretch: _Stretch, coordinates: FloatArray, rows: IntArray, columns: IntArray
+) -> FloatArray:
+    """Ratios (E,) of some of the coordinates (3, S, K) in the planes of their stations."""
+    away = coordinates[:, rows, columns] - stretch.centres[:, columns]
+    x, y = np.einsum("ce,cie->ie", away, stretch.axes[:, :, columns])
+    return ratios_in_plane(sweep, int(stretch.stations[0]) + columns, x, y)
 
 
 def fading(part: FloatArray) -> FloatArray:

@@ -6,12 +6,13 @@ at the start itself, wherever that is.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Any, cast
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from gc_core.arrays import BoolArray, FloatArray, finite, read_only_fields
+from gc_core.arrays import BoolArray, FloatArray, finite, read_only
 from gc_core.cylinder import GeneralizedCylinder
 from gc_core.demonstration import sign_continuous
 from gc_core.errors import InvalidSettingError, UnknownOptionError
@@ -50,7 +51,11 @@ class Reproduction:
     """Law of the ratio."""
 
     def __post_init__(self) -> None:
-        read_only_fields(self)
+        for field in fields(self):
+            content: object = getattr(self, field.name)
+            # A thousand runs are megabytes: what nobody can write to is not copied again.
+            if isinstance(content, np.ndarray) and _can_be_written(content):
+                object.__setattr__(self, field.name, read_only(cast("NDArray[Any]", content)))
 
 
 def reproduce(
@@ -160,3 +165,9 @@ def _reproduction(
         start_inside=bool(inside[0]) if single else inside,
         law=law,
     )
+
+
+def _can_be_written(array: NDArray[Any]) -> bool:
+    """Whether an array, or one that it is a view of, is not read-only."""
+    base = array.base
+    return array.flags.writeable or (isinstance(base, np.ndarray) and _can_be_written(base))
