@@ -17,7 +17,7 @@ from gc_core.radius import GREATEST_SLOPE
 from gc_core.sections import SECTIONS
 from tests.helpers_data import ALL_SETS, POSE_SETS, load
 from tests.measurements import geometry, runs
-from tests.measurements.sections import STATIONS, TIGHT_ANGLES, Measured, measure
+from tests.measurements.sections import STATIONS, TIGHT, TIGHT_ANGLES, Measured, measure
 
 every_set = pytest.mark.parametrize("name", ALL_SETS)
 every_section = pytest.mark.parametrize("section", sorted(SECTIONS))
@@ -98,6 +98,22 @@ def test_no_run_from_inside_leaves_the_tube(name: str, section: str, align_by: s
 
     assert found.first.outside == 0
     assert found.anywhere.outside == 0
+
+
+@every_set
+@every_section
+@every_alignment
+def test_no_run_jumps(name: str, section: str, align_by: str) -> None:
+    found = measured(name, section, align_by)
+
+    assert found.first.worst <= runs.JUMP
+    assert found.anywhere.worst <= runs.JUMP
+
+
+@every_set
+@every_alignment
+def test_the_hull_is_as_tight_as_stated(name: str, align_by: str) -> None:
+    assert measured(name, "hull", align_by).area <= TIGHT
 
 
 @every_set
