@@ -1,4 +1,9 @@
-"""Numbers that say how good a tube, a run or a map is."""
+"""Numbers that say how good a tube, a run or a map is.
+
+Dynamic time warping is a library's. The Fréchet distance is our own: the permissive library that has it
+in space (similaritymeasures 1.5) agrees to the last digit but takes five times as long; jerk on uneven
+times is in none.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +14,7 @@ from gc_core.cylinder import GeneralizedCylinder
 from gc_core.demonstration import check_times
 from gc_core.errors import ShapeError, TooFewSamplesError
 from gc_core.registration import ThinPlateSpline
+from gc_core.warping import least_sum
 
 
 def containment(cylinder: GeneralizedCylinder, points: FloatArray) -> float:
@@ -35,11 +41,16 @@ def frechet(a: FloatArray, b: FloatArray) -> float:
     float
         [m].
 
+    Raises
+    ------
+    ShapeError, NotFiniteError, TooFewSamplesError
+        If they are no paths.
+
     References
     ----------
     .. [1] T. Eiter, H. Mannila. Computing discrete Fréchet distance. CD-TR 94/64, TU Vienna, 1994.
     """
-    return _along_diagonals(_distances(a, b), summed=False)
+    return _least_maximum(np.linalg.norm(_path(a, "a")[:, None] - _path(b, "b")[None], axis=2))
 
 
 def dtw(a: FloatArray, b: FloatArray) -> float:
@@ -55,12 +66,17 @@ def dtw(a: FloatArray, b: FloatArray) -> float:
     float
         [m].
 
+    Raises
+    ------
+    ShapeError, NotFiniteError, TooFewSamplesError
+        If they are no paths.
+
     References
     ----------
     .. [1] H. Sakoe, S. Chiba. Dynamic programming algorithm optimization for spoken word recognition.
        IEEE TASSP 26(1), 1978. doi:10.1109/TASSP.1978.1163055
     """
-    return _along_diagonals(_distances(a, b), summed=True)
+    return least_sum(_path(a, "a"), _path(b, "b"))
 
 
 def sse(a: FloatArray, b: FloatArray) -> float:
@@ -135,23 +151,19 @@ def _path(values: FloatArray, what: str) -> FloatArray:
     return path
 
 
-def _distances(a: FloatArray, b: FloatArray) -> FloatArray:
-    return np.linalg.norm(_path(a, "a")[:, None] - _path(b, "b")[None], axis=2)
-
-
-def _along_diagonals(cost: FloatArray, *, summed: bool) -> float:
-    """Least sum, or least maximum, of costs (K, L) over monotone ways from corner to corner."""
+def _least_maximum(cost: FloatArray) -> float:
+    """Least maximum of costs (K, L) over monotone ways from corner to corner, diagonal by diagonal."""
     rows, columns = cost.shape
     flipped = cost[:, ::-1]
     older = np.full(rows + 1, np.inf)
     latest = np.full(rows + 1, np.inf)
     # Slot i + 1 belongs to row i; slot 0 stays infinite, and before the first cell there is nothing to pay.
-    older[0] = -np.inf if not summed else 0.0
+    older[0] = -np.inf
     for diagonal in range(rows + columns - 1):
         low, high = max(0, diagonal - columns + 1), min(rows, diagonal + 1)
         here = np.diagonal(flipped, columns - 1 - diagonal)
         best = np.minimum(np.minimum(latest[low + 1 : high + 1], latest[low:high]), older[low:high])
         fresh = np.full(rows + 1, np.inf)
-        fresh[low + 1 : high + 1] = best + here if summed else np.maximum(best, here)
+        fresh[low + 1 : high + 1] = np.maximum(best, here)
         older, latest = latest, fresh
     return float(latest[rows])
