@@ -124,9 +124,7 @@ def mean_orientations(
     for demonstration, part, moment in zip(demonstrations, trimmed, moments, strict=True):
         if demonstration.orientations is None:
             return None
-        sample = interpolated(moment, part.times, part.kept)
-        values = _sampled_rows(demonstration.orientations, sample)
-        sampled.append(values / np.linalg.norm(values, axis=1, keepdims=True))
+        sampled.append(_turned(demonstration.orientations, interpolated(moment, part.times, part.kept)))
     stacked = np.array(sampled)
     _, vectors = np.linalg.eigh(np.einsum("jia,jib->iab", stacked, stacked))
     mean = vectors[:, :, -1]
@@ -152,7 +150,7 @@ def majority_gripper(
         )
     values = np.array(channels)
     low, high = float(values.min()), float(values.max())
-    share = (values > 0.5 * (low + high)).mean(axis=0)
+    share = (values > 0.5 * low + 0.5 * high).mean(axis=0)
     decided = np.abs(share - 0.5) > GRIPPER_HYSTERESIS
     decided[0] = True
     latest = np.maximum.accumulate(np.where(decided, np.arange(len(share)), 0))
@@ -212,6 +210,21 @@ def _sampled_rows(rows: FloatArray, sample: FloatArray) -> FloatArray:
     index = np.minimum(sample.astype(np.intp), len(rows) - 2)
     part = (sample - index)[:, None]
     return rows[index] * (1.0 - part) + rows[index + 1] * part
+
+
+def _turned(quaternions: FloatArray, sample: FloatArray) -> FloatArray:
+    """Rotations (K, 4) at fractional sample numbers (K,), turning evenly from sample to sample."""
+    index = np.minimum(sample.astype(np.intp), len(quaternions) - 2)
+    before, after = quaternions[index], quaternions[index + 1]
+    part = (sample - index)[:, None]
+    half = np.arccos(np.clip(np.einsum("ij,ij->i", before, after), -1.0, 1.0))[:, None]
+    # Of a turn too small for its sine, the straight line is the arc.
+    small = half < 1e-6
+    sine = np.sin(np.where(small, 1.0, half))
+    first = np.where(small, 1.0 - part, np.sin((1.0 - part) * half) / sine)
+    second = np.where(small, part, np.sin(part * half) / sine)
+    values = first * before + second * after
+    return values / np.linalg.norm(values, axis=1, keepdims=True)
 
 
 def _sampled(curve: FloatArray, parameter: FloatArray) -> FloatArray:

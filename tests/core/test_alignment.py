@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation, Slerp
 
 from gc_core import Demonstration, encode
 from gc_core.alignment import ALIGNMENTS, Alignment, align
@@ -146,3 +147,108 @@ def test_ten_times_the_samples_give_the_same_middle(align_by: str) -> None:
     few, many = (encode(bundle(3, 3, samples), align_by=align_by).directrix for samples in (1_500, 15_000))
 
     np.testing.assert_allclose(many, few, atol=1e-3)
+
+
+def posed(seed: int, count: int = 4, samples: int = 120) -> list[Demonstration]:
+    """Demonstrations whose tool turns by up to a radian about a few axes."""
+    rng = np.random.default_rng(seed)
+    part = np.linspace(0.0, 1.0, samples)[:, None]
+    return [
+        Demonstration(
+            d.times,
+            d.positions,
+            orientations=Rotation.from_rotvec(part * axis + rng.normal(scale=0.1, size=3)).as_quat(
+                scalar_first=True
+            ),
+        )
+        for d, axis in zip(bundle(seed, count, samples), rng.normal(scale=0.6, size=(count, 3)), strict=True)
+    ]
+
+
+def orientations_of(shown: list[Demonstration], align_by: str = "time") -> FloatArray:
+    orientations = encode(shown, align_by=align_by, stations=50).orientations
+    assert orientations is not None
+    return orientations
+
+
+def angles_between(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Angles of the rotations from quaternions (N, 4) to others [rad]."""
+    turn = Rotation.from_quat(a, scalar_first=True).inv() * Rotation.from_quat(b, scalar_first=True)
+    return turn.magnitude()
+
+
+def turned_by(turn: Rotation, quaternions: FloatArray | None) -> FloatArray:
+    return (turn * Rotation.from_quat(quaternions, scalar_first=True)).as_quat(scalar_first=True)
+
+
+@settings(max_examples=20, deadline=None)
+@given(seed=seeds, turn=seeds)
+def test_turning_every_tool_turns_the_mean_tool(seed: int, turn: int) -> None:
+    shown, by = posed(seed), Rotation.random(random_state=turn)
+    turned = [
+        Demonstration(
+            d.times,
+            d.positions,
+            orientations=(by * Rotation.from_quat(d.orientations, scalar_first=True)).as_quat(
+                scalar_first=True
+            ),
+        )
+        for d in shown
+    ]
+    wanted = turned_by(by, orientations_of(shown))
+
+    assert angles_between(orientations_of(turned), wanted).max() < 1e-6
+
+
+@settings(max_examples=20, deadline=None)
+@given(seed=seeds, signs=st.lists(st.sampled_from([1.0, -1.0]), min_size=4, max_size=4))
+def test_a_quaternion_and_its_negative_are_one_orientation(seed: int, signs: list[float]) -> None:
+    shown = posed(seed)
+    other = [
+        Demonstration(d.times, d.positions, orientations=sign * np.asarray(d.orientations))
+        for sign, d in zip(signs, shown, strict=True)
+    ]
+
+    assert angles_between(orientations_of(other), orientations_of(shown)).max() < 1e-6
+
+
+@settings(max_examples=20, deadline=None)
+@given(seed=seeds, count=st.integers(1, 5), align_by=st.sampled_from(ALIGNMENTS))
+def test_mean_orientations_are_unit_and_do_not_jump(seed: int, count: int, align_by: str) -> None:
+    mean = orientations_of(posed(seed, count), align_by)
+
+    np.testing.assert_allclose(np.linalg.norm(mean, axis=1), 1.0, atol=1e-12)
+    assert (np.einsum("ij,ij->i", mean[1:], mean[:-1]) > 0.99).all()
+
+
+@settings(max_examples=20, deadline=None)
+@given(seed=seeds)
+def test_between_samples_a_tool_turns_evenly(seed: int) -> None:
+    few = posed(seed, 1, 4)[0]
+    turning = Slerp(few.times, Rotation.from_quat(few.orientations, scalar_first=True))
+    cylinder = encode([few], stations=50)
+    assert cylinder.orientations is not None
+
+    wanted = turning(np.clip(cylinder.times, 0.0, few.times[-1])).as_quat(scalar_first=True)
+    assert angles_between(cylinder.orientations, wanted).max() < 1e-6
+
+
+@settings(max_examples=20, deadline=None)
+@given(seed=seeds, count=st.integers(1, 7), scale=st.sampled_from([1.0, 255.0, 1e308]))
+def test_the_gripper_takes_one_of_its_two_states_and_does_not_chatter(
+    seed: int, count: int, scale: float
+) -> None:
+    rng = np.random.default_rng(seed)
+    shown = [
+        Demonstration(
+            d.times,
+            d.positions,
+            gripper=scale * (d.times > rng.uniform(0.3, 0.7) * d.times[-1]).astype(float),
+        )
+        for d in bundle(seed, count)
+    ]
+    gripper = encode(shown, stations=50).gripper
+    assert gripper is not None
+
+    assert set(np.unique(gripper)) == {0.0, scale}
+    assert np.count_nonzero(np.diff(gripper)) == 1
