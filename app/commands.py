@@ -23,7 +23,7 @@ from gc_core import encode as learn_cylinder
 from gc_core import reproduce as run_from
 
 Section: TypeAlias = Literal["circle", "ellipse", "closed_spline", "hull"]
-AlignBy: TypeAlias = Literal["time", "arc_length"]
+AlignBy: TypeAlias = Literal["time", "arc_length", "dtw"]
 Law: TypeAlias = Literal["fixed", "convergent"]
 Indices: TypeAlias = NDArray[np.int64]
 Units: TypeAlias = Literal["auto"] | Unit

@@ -15,10 +15,10 @@ from gc_core import Constraint, Demonstration
 
 FloatArray: TypeAlias = NDArray[np.float64]
 SectionKind: TypeAlias = Literal["circle", "ellipse", "closed_spline"]
-Alignment: TypeAlias = Literal["time", "arc_length"]
+Alignment: TypeAlias = Literal["time", "arc_length", "dtw"]
 
 SECTION_KINDS: Final[tuple[SectionKind, ...]] = ("circle", "ellipse", "closed_spline")
-ALIGNMENTS: Final[tuple[Alignment, ...]] = ("time", "arc_length")
+ALIGNMENTS: Final[tuple[Alignment, ...]] = ("time", "arc_length", "dtw")
 
 
 @dataclass(frozen=True, eq=False)

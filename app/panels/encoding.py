@@ -19,7 +19,11 @@ PICTURES: Final[Mapping[SectionKind, tuple[str, viser.IconName]]] = {
     "ellipse": ("Ellipse", viser.Icon.OVAL),
     "closed_spline": ("Free shape (closed spline)", viser.Icon.VECTOR_SPLINE),
 }
-ALIGNMENT_WORDS: Final[Mapping[str, Alignment]] = {"way (arc length)": "arc_length", "time": "time"}
+ALIGNMENT_WORDS: Final[Mapping[str, Alignment]] = {
+    "way (arc length)": "arc_length",
+    "place (time warping)": "dtw",
+    "time": "time",
+}
 
 
 class EncodingPanel:

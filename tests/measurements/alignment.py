@@ -2,7 +2,7 @@
 
 The five shapes of *Reaching* are drawn through the desk, the servo and the Jaco: once evenly, and with
 pauses and uneven speed for each seed. Printed is how far the directrix of the uneven ones lies from
-that of the even ones, for both alignments: station by station, and as a curve.
+that of the even ones, for each alignment: station by station, and as a curve.
 """
 
 from __future__ import annotations
