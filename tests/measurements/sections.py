@@ -87,7 +87,7 @@ class Measured:
     anywhere: runs.Runs
     """Runs from random places anywhere."""
     milliseconds: float
-    """To encode from fresh demonstrations, median of 5; 0: not measured."""
+    """Of the processor to encode fresh demonstrations, median of 5; 0: not measured."""
 
 
 def measure(
@@ -158,13 +158,13 @@ def broken(measured: Measured) -> list[str]:
 
 
 def encode_time(load_fresh: Callable[[], list[Demonstration]], section: str, align_by: str) -> float:
-    """Median of 5 times to encode demonstrations that were not seen before [ms]."""
+    """Median of 5 processor times to encode demonstrations that were not seen before [ms]."""
     took: list[float] = []
     for _ in range(5):
         shown = load_fresh()
-        begin = time.perf_counter()
+        begin = time.process_time()
         encode(shown, section=section, align_by=align_by)
-        took.append(time.perf_counter() - begin)
+        took.append(time.process_time() - begin)
     return 1000.0 * float(np.median(took))
 
 
@@ -243,8 +243,9 @@ def set_line(rows: Sequence[Measured]) -> str:
 INTRODUCTION: Final = """# Sections of real recordings
 
 Made by `python -m tests.measurements.sections --out docs/sections.md` from public recordings
-that are not part of the project ({sets}); {stations} stations, {count} random starts with eta <= 1
-of each kind, one BLAS thread.
+that are not part of the project:
+{sets}.
+{stations} stations, {count} random starts with eta <= 1 of each kind, one BLAS thread.
 
 - *trimmed*: most time cut from one demonstration.
 - *missed*: effective points that are no crossing of the demonstration with the plane, in one run
@@ -263,7 +264,7 @@ of each kind, one BLAS thread.
 - Runs from random places in section 0 and anywhere in the tube: how many leave the tube (*out*), how
   many have a step above {jump:g} times the median of the 21 steps around it (*jump*; at the ends, of
   those that exist), and the longest step by that median (*worst*).
-- *encode*: median of 5, of demonstrations that no cache knows, 64 angles.
+- *encode*: processor time, median of 5, of demonstrations that no cache knows, 64 angles.
 """
 
 
