@@ -7,6 +7,7 @@ import importlib
 import inspect
 import re
 from collections.abc import Callable, Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -70,6 +71,7 @@ def called_names(function: ast.FunctionDef) -> set[str]:
     }
 
 
+@cache
 def raising_names() -> set[str]:
     """Functions and classes of the core that raise a `GcError`, themselves or by calling one of these."""
     calls: dict[str, set[str]] = {}
