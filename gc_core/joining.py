@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gc_core.arrays import BoolArray, FloatArray, IntArray
+from gc_core.arrays import BoolArray, FloatArray, IntArray, interpolated
 from gc_core.cylinder import GeneralizedCylinder
 from gc_core.errors import InvalidSettingError
 from gc_core.location import Passages, at_once, cut, in_section, passages
@@ -93,9 +93,10 @@ def entrances(cylinder: GeneralizedCylinder, starts: FloatArray) -> IntArray:
         least = np.sqrt(np.maximum(square[np.arange(len(some)), nearest], 0.0))
         later = gone[nearest] > LATER * gone[-1]
         later &= least < CLEARLY_NEARER * np.sqrt(np.maximum(square[:, 0], 0.0))
-        latest = np.searchsorted(gone, gone[-1] - least, side="right") - 1
+        # The last station that leaves as much of the way as the start is away.
+        latest = interpolated(gone[-1] - least, gone, np.arange(len(gone), dtype=np.float64)).astype(np.intp)
         station = np.minimum(np.minimum(nearest, latest), len(centres) - 2)
-        index[begin : begin + len(some)] = np.where(later, np.maximum(station, 0), 0)
+        index[begin : begin + len(some)] = np.where(later, station, 0)
     return index
 
 

@@ -255,7 +255,7 @@ def _beyond_ends(sweep: Sweep, points: FloatArray, rows: IntArray) -> tuple[Pass
         off = np.flatnonzero(beyond > sweep.slack)
         station = np.full(off.size, index, dtype=np.intp)
         angles, ratios = in_section(sweep, points[rows[off]], station, np.full(off.size, part))
-        ends.append(Passages(rows[off], station + part, angles, ratios))
+        ends.append(Passages(rows[off], np.full(off.size, index + part), angles, ratios))
         away.append(np.hypot(ratios, beyond[off] * sweep.narrowness[index + round(part)].mean()))
     return _joined(ends), np.concatenate(away)
 

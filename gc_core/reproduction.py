@@ -52,9 +52,9 @@ class Reproduction:
 
     def __post_init__(self) -> None:
         for field in fields(self):
-            content: object = getattr(self, field.name)
+            content = getattr(self, field.name)
             # A thousand runs are megabytes: what nobody can write to is not copied again.
-            if isinstance(content, np.ndarray) and _can_be_written(content):
+            if isinstance(content, np.ndarray) and _can_be_written(cast("NDArray[Any]", content)):
                 object.__setattr__(self, field.name, read_only(cast("NDArray[Any]", content)))
 
 
@@ -169,5 +169,6 @@ def _reproduction(
 
 def _can_be_written(array: NDArray[Any]) -> bool:
     """Whether an array, or one that it is a view of, is not read-only."""
-    base = array.base
-    return array.flags.writeable or (isinstance(base, np.ndarray) and _can_be_written(base))
+    if array.flags.writeable:
+        return True
+    return isinstance(array.base, np.ndarray) and _can_be_written(array.base)
