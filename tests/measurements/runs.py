@@ -65,9 +65,11 @@ def inside(cylinder: GeneralizedCylinder, positions: FloatArray, stations: Float
     angles = np.arctan2(local[..., 2], local[..., 1])
     reach = radius_at(cylinder.radii, np.broadcast_to(rows, angles.shape), angles)
     held = (np.abs(local[..., 0]) <= IN_PLANE) & (np.hypot(local[..., 1], local[..., 2]) <= HELD * reach)
-    rest = ~held
+    waiting = (positions == positions[:, :1]).all(axis=2)
+    waiting[:, 0] = False
+    rest = ~held & ~waiting
     held[rest] = cylinder.contains(positions[rest])
-    return held
+    return np.where(waiting, held[:, :1], held)
 
 
 def _on_sections(cylinder: GeneralizedCylinder, stations: np.ndarray, rng: np.random.Generator) -> FloatArray:
