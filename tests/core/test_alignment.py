@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation, Slerp
 
-from gc_core import Demonstration, encode
+from gc_core import Demonstration, UnknownOptionError, encode
 from gc_core.alignment import ALIGNMENTS, Alignment, align
 from gc_core.arrays import FloatArray
 from gc_core.demonstration import trim
@@ -252,3 +252,8 @@ def test_the_gripper_takes_one_of_its_two_states_and_does_not_chatter(
 
     assert set(np.unique(gripper)) == {0.0, scale}
     assert np.count_nonzero(np.diff(gripper)) == 1
+
+
+def test_the_alignments_are_named_to_who_asks_for_another() -> None:
+    with pytest.raises(UnknownOptionError, match="'time', 'arc_length', 'dtw'"):
+        encode(bundle(0), align_by="place")

@@ -29,6 +29,21 @@ def noisy() -> list[Demonstration]:
     ]
 
 
+def waiting(before: int, after: int) -> list[Demonstration]:
+    """Nearly all of each recording stands still, trembling."""
+    rng = np.random.default_rng(1)
+    paths = [
+        np.concatenate(
+            (np.repeat(d.positions[:1], before, 0), d.positions, np.repeat(d.positions[-1:], after, 0))
+        )
+        for d in bundle(7, 3)
+    ]
+    return [
+        Demonstration(0.01 * np.arange(len(path)), path + rng.normal(scale=2e-5, size=path.shape))
+        for path in paths
+    ]
+
+
 TURN = np.linspace(0.0, 2.0 * np.pi, 300)
 STIR = 0.1 * np.stack((np.cos(TURN), np.sin(TURN)))[:, 30 * (np.arange(1501) % 10)]
 THERE_AND_BACK = np.abs(np.linspace(-1.0, 1.0, 301))[:, None] * [0.3, 0.0, 0.0]
@@ -43,6 +58,10 @@ MOTIONS = {
     "a sensor's noise": noisy(),
     "far from the origin and late": [Demonstration(d.times + 1.7e9, d.positions + 100.0) for d in bundle(3)],
     "smaller than the least width": [Demonstration(d.times, 1e-3 * d.positions) for d in bundle(4)],
+    "waiting for a minute at both ends": waiting(6000, 6000),
+    "samples at uneven times": [Demonstration(d.times**3, d.positions) for d in bundle(8)],
+    "as far away as is allowed": [Demonstration(d.times, 9e5 + d.positions) for d in bundle(9)],
+    "as large as is allowed": [Demonstration(d.times, 1e6 * d.positions) for d in bundle(10)],
     "a hundred thousand samples": bundle(5, 2, 100_000),
     "forty demonstrations": bundle(6, 40, 200),
 }
@@ -62,6 +81,8 @@ def test_awkward_motions_are_learned_run_and_bent_without_a_warning(
         ends = cylinder.directrix[[0, -1]]
         bent = generalize(cylinder, register(ends, ends + np.array([[0.0, 0.1, 0.0], [0.1, 0.0, 0.1]])))
 
-    assert ratios_to_polygons(cylinder).max() <= 1.0 + 1e-9
+    # Far from the origin, rounding alone moves a point by more than a billionth of a thin section.
+    rounding = 8.0 * np.spacing(np.abs(cylinder.directrix).max()) / cylinder.radii.min()
+    assert ratios_to_polygons(cylinder).max() <= 1.0 + 1e-9 + rounding
     assert (np.diff(cylinder.times) > 0.0).all()
     assert all(np.isfinite(values).all() for values in (cylinder.surface(), run.positions, bent.surface()))
