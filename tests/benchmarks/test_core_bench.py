@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gc_core import Demonstration, GeneralizedCylinder, Landmark, encode, generalize, register, reproduce
+from gc_core import Demonstration, GeneralizedCylinder, Landmark, encode, generalize, register
 from gc_core.alignment import ALIGNMENTS
 from gc_core.frames import arc_length
 from gc_core.sections import SECTIONS
@@ -94,15 +94,6 @@ def test_encode_again_when_one_of_five_demonstrations_changed(benchmark: Any) ->
     benchmark(again)
 
 
-@pytest.mark.benchmark(group="reproduce")
-@pytest.mark.parametrize("count", [1, 5, 1000])
-def test_reproduce(benchmark: Any, cylinder: GeneralizedCylinder, count: int) -> None:
-    ray = cylinder.surface()[0, np.arange(count) % 64] - cylinder.directrix[0]
-    starts = cylinder.directrix[0] + np.random.default_rng(0).uniform(0.0, 1.0, (count, 1)) * ray
-
-    benchmark(reproduce, cylinder, starts)
-
-
 @pytest.mark.benchmark(group="generalize")
 @pytest.mark.parametrize("count", [1, 2, 4])
 def test_generalize_by_landmarks(benchmark: Any, cylinder: GeneralizedCylinder, count: int) -> None:
@@ -122,8 +113,3 @@ def test_generalize_by_two_frames(benchmark: Any, cylinder: GeneralizedCylinder)
     ]
 
     benchmark(lambda: generalize(cylinder, register(source, target)))
-
-
-@pytest.mark.benchmark(group="locate")
-def test_locate_a_thousand_points(benchmark: Any, cylinder: GeneralizedCylinder) -> None:
-    benchmark(cylinder.locate, cylinder.surface()[::10, ::2].reshape(-1, 3))

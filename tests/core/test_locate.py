@@ -79,6 +79,13 @@ def test_the_most_central_of_all_passages_is_found(seed: int, point: tuple, lean
         np.testing.assert_allclose((station, ratio), best, atol=1e-9)
 
 
+def test_nothing_is_inside_beyond_the_ends() -> None:
+    cylinder = encode([line((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))])
+
+    assert not cylinder.contains(np.array([[-0.01, 0.0, 0.0], [1.01, 0.0, 0.0]])).any()
+    assert cylinder.contains(np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])).all()
+
+
 @settings(max_examples=40, deadline=None)
 @given(
     seed=seeds,

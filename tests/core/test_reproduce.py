@@ -17,7 +17,7 @@ from gc_core import (
 )
 from gc_core.radius import radius_at
 from gc_core.sections import SECTIONS
-from tests.core.shapes import bundle, line, seeds
+from tests.core.shapes import bundle, seeds
 
 sections = st.sampled_from(sorted(SECTIONS))
 laws = st.sampled_from(["fixed", "convergent"])
@@ -177,33 +177,6 @@ def test_orientation_and_gripper_follow_the_stations() -> None:
     assert run.gripper is not None
     np.testing.assert_allclose(np.linalg.norm(run.orientations, axis=1), 1.0, atol=1e-9)
     assert len(run.orientations) == len(run.gripper) == len(run.positions) == 40
-
-
-@settings(max_examples=40, deadline=None)
-@given(seed=seeds, station=st.integers(1, 58), ratio=st.floats(0.05, 0.95), angle=st.floats(-3.0, 3.0))
-def test_locate_finds_a_point_s_section(seed: int, station: int, ratio: float, angle: float) -> None:
-    cylinder = encode(bundle(seed), stations=60)
-    stations, angles, ratios = cylinder.locate(start_at(cylinder, ratio, angle, station)[None])
-
-    np.testing.assert_allclose(stations, station, atol=1e-6)
-    np.testing.assert_allclose(np.angle(np.exp(1j * (angles - angle))), 0.0, atol=1e-5)
-    np.testing.assert_allclose(ratios, ratio, rtol=1e-5)
-
-
-def test_nothing_is_inside_beyond_the_ends() -> None:
-    cylinder = encode([line((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))])
-
-    assert not cylinder.contains(np.array([[-0.01, 0.0, 0.0], [1.01, 0.0, 0.0]])).any()
-    assert cylinder.contains(np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])).all()
-
-
-def test_locate_answers_for_no_points_and_for_far_points() -> None:
-    cylinder = encode(bundle(4))
-
-    assert [len(part) for part in cylinder.locate(np.zeros((0, 3)))] == [0, 0, 0]
-    assert all(
-        np.isfinite(part).all() for part in cylinder.locate(np.array([[9.0, 9.0, 9.0], [-9.0, 0.0, 3.0]]))
-    )
 
 
 @pytest.mark.parametrize(
