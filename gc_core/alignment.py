@@ -81,7 +81,7 @@ def align(
     if directrix is None:
         mean = np.mean([_at(d, moments) for d, moments in zip(demonstrations, clocks, strict=True)], axis=0)
         # A place on the directrix stands for a station's length of path, not for one noisy sample.
-        mean = smooth(mean, len(mean) // 200)
+        mean = smooth(mean, len(mean) // 400)
     else:
         mean = _sampled(directrix, grid)
     longest = max(d.length for d in demonstrations)
@@ -233,7 +233,7 @@ def _sampled(curve: FloatArray, parameter: FloatArray) -> FloatArray:
 
 def _even_parameter(mean: FloatArray, grid: FloatArray, stations: int, longest: float) -> FloatArray:
     """Parameters (N,) at which the mean curve has gone through equal lengths."""
-    gone = arc_length(mean)
+    gone = arc_length(smooth(mean, len(mean) // 200))
     if gone[-1] <= 1e-3 * longest:
         raise OpposedDemonstrationsError(float(gone[-1]))
     gone = gone + 1e-6 * gone[-1] * grid

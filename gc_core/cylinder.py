@@ -16,6 +16,7 @@ from gc_core.arrays import BoolArray, FloatArray, finite, read_only, read_only_f
 from gc_core.diagnostics import Diagnostics
 from gc_core.frames import arc_length
 from gc_core.location import Sweep, inside, most_central, sweep_of
+from gc_core.surface import section_surface
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,35 +139,6 @@ class GeneralizedCylinder:
             If the points are not finite places.
         """
         return inside(self.sweep, finite(points, "points", (None, 3)))
-
-
-def section_surface(
-    directrix: FloatArray, frames: FloatArray, angles: FloatArray, radii: FloatArray
-) -> FloatArray:
-    """Vertices (N, M, 3) of sections given by their radii (N, M) [m]."""
-    circle = np.stack((np.cos(angles), np.sin(angles)))
-    return directrix[:, None, :] + radii[:, :, None] * np.swapaxes(frames[:, :, 1:] @ circle, 1, 2)
-
-
-def crossing_stations(surface: FloatArray, normals: FloatArray) -> BoolArray:
-    """Stations whose section is cut by the section after or before it.
-
-    Parameters
-    ----------
-    surface : (N, M, 3) array
-        Vertices [m].
-    normals : (N, 3) array
-        Section normals [-].
-
-    Returns
-    -------
-    (N,) array of bool
-    """
-    forward = np.diff(surface, axis=0)
-    back = np.einsum("imk,ik->im", forward, normals[:-1]) <= 0.0
-    back |= np.einsum("imk,ik->im", forward, normals[1:]) <= 0.0
-    pair = back.any(axis=1)
-    return np.concatenate((pair, [False])) | np.concatenate(([False], pair))
 
 
 def _six_volumes(a: FloatArray, b: FloatArray, c: FloatArray) -> float:

@@ -23,6 +23,8 @@ class Diagnostics:
     """(n,) samples that repeat the place before them."""
     missed: BoolArray
     """(N, n) where a demonstration does not cross the section plane near its station; projected there."""
+    smoothed: BoolArray
+    """(N,) where the directrix leaves out a small hook of the mean path."""
     centre_outside: BoolArray
     """(N,) where the directrix is outside of the effective points' hull; the section reaches to it."""
     minimum_half_width: float
@@ -32,7 +34,7 @@ class Diagnostics:
     crossing: BoolArray
     """(N,) where a section cuts its neighbour: the tube is wider than its bend."""
     tilt: FloatArray
-    """(N,) angle between section normal and tangent [rad]."""
+    """(N,) angle between section normal and tangent, 0 where nothing had to be repaired [rad]."""
     folded: BoolArray
     """(N,) where the map that bent the tube turns space inside out."""
 

@@ -3,27 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from numbers import Real
 from typing import Literal
 
 import numpy as np
 
 from gc_core.alignment import Alignment, align, majority_gripper, mean_orientations
 from gc_core.arrays import BoolArray, FloatArray, finite
-from gc_core.crossings import effective_points
-from gc_core.cylinder import GeneralizedCylinder, crossing_stations, section_surface
+from gc_core.cylinder import GeneralizedCylinder
 from gc_core.demonstration import Demonstration, Trimmed, trim
 from gc_core.diagnostics import Diagnostics
-from gc_core.errors import InvalidSettingError, NoDemonstrationsError, TooFewSamplesError, UnknownOptionError
-from gc_core.frames import arc_length, rotation_minimizing_frames, tangents
+from gc_core.errors import (
+    InvalidSettingError,
+    NoDemonstrationsError,
+    NotADemonstrationError,
+    TooFewSamplesError,
+    UnknownOptionError,
+)
+from gc_core.frames import angles_between, tangents
 from gc_core.radius import vertex_angles
-from gc_core.sections import SECTIONS, section_radii
+from gc_core.sections import SECTIONS
+from gc_core.slicing import Settings, Slices, slices_of
+from gc_core.surface import crossing_stations
 
 FEWEST_STATIONS = 8
 """Below this a curve has no usable tangents."""
 
 FEWEST_ANGLES = 8
 """Below this a section has no usable shape."""
+
+ANGLES = 64
+"""Vertices of a section, unless stated."""
+
+HULL_ANGLES = 128
+"""... of a hull, whose sharp corners need more to be tight."""
 
 HALF_WIDTH = 0.001
 """Least distance of the boundary from the directrix, where demonstrations meet [m]."""
@@ -32,27 +45,17 @@ SINGLE_HALF_WIDTH = 0.02
 """Radius of the tube around a single demonstration [m]."""
 
 
-@dataclass(frozen=True)
-class Settings:
-    """How to encode; see `encode`."""
-
-    section: str
-    stations: int
-    angles: int
-    align_by: str
-    half_width: float
-
-
 def encode(
     demonstrations: Sequence[Demonstration],
     *,
     section: str = "closed_spline",
     stations: int = 200,
-    angles: int = 64,
+    angles: int | None = None,
     align_by: str = "time",
     directrix: Literal["mean"] | FloatArray = "mean",
     minimum_half_width: float = HALF_WIDTH,
     single_half_width: float = SINGLE_HALF_WIDTH,
+    repair: bool = True,
 ) -> GeneralizedCylinder:
     """Learn a generalized cylinder from demonstrations.
 
@@ -67,16 +70,20 @@ def encode(
         Kind of the cross-sections.
     stations : int
         Number of stations N along the directrix, at least 8.
-    angles : int
-        Number of vertices M of each section, at least 8.
-    align_by : {"time", "arc_length"}
-        What corresponds: equal parts of the duration, or of the path.
+    angles : int or None
+        Number of vertices M of each section, at least 8; None for 64, 128 for the sharp corners of a hull.
+    align_by : {"time", "arc_length", "dtw"}
+        What corresponds: equal parts of the duration, of the path, or places near each other by dynamic
+        time warping.
     directrix : "mean" or (K, 3) array
         The mean of the aligned demonstrations, or a curve evenly sampled in the alignment's parameter [m].
     minimum_half_width : float
         Least distance of the boundary from the directrix; also the least half-thickness of a section [m].
     single_half_width : float
         Radius of the tube around a single demonstration [m].
+    repair : bool
+        Tilt the section planes where neighbouring sections would cross; else they stay perpendicular to the
+        directrix, which is quicker.
 
     Returns
     -------
@@ -89,6 +96,8 @@ def encode(
         If there is none.
     OpposedDemonstrationsError
         If their mean does not move.
+    NotADemonstrationError
+        If something else is among them.
     UnknownOptionError, InvalidSettingError, ShapeError, NotFiniteError, TooFewSamplesError
         If an option is none of those above.
 
@@ -97,48 +106,47 @@ def encode(
     .. [1] S. R. Ahmadzadeh, M. A. Rana, S. Chernova. Generalized Cylinders for Learning, Reproduction,
        Generalization, and Refinement of Robot Skills. RSS 2017. doi:10.15607/RSS.2017.XIII.021
     """
-    given = tuple(demonstrations)
-    if not given:
-        raise NoDemonstrationsError
+    given = _shown(demonstrations)
     order = _canonical_order(given)
     places = sorted(range(len(order)), key=order.__getitem__)
     shown = tuple(given[j] for j in order)
     assumed = len(shown) == 1
     settings = _checked(
-        section, stations, angles, align_by, single_half_width if assumed else minimum_half_width
+        section,
+        stations,
+        angles,
+        align_by,
+        single_half_width if assumed else minimum_half_width,
+        repair=repair,
     )
     trimmed = tuple(trim(demonstration) for demonstration in shown)
     alignment = align(trimmed, settings.stations, settings.align_by, _given(directrix))
-    normals = tangents(alignment.directrix)
-    frames = rotation_minimizing_frames(alignment.directrix, normals, _first_normal(alignment, normals[0]))
-    return _assemble(shown, trimmed, alignment, frames, settings, places=places)
+    return _assemble(
+        shown, trimmed, alignment, slices_of(trimmed, alignment, settings), settings, places=places
+    )
 
 
 def _assemble(
     shown: tuple[Demonstration, ...],
     trimmed: tuple[Trimmed, ...],
     alignment: Alignment,
-    frames: FloatArray,
+    slices: Slices,
     settings: Settings,
     *,
     places: list[int],
 ) -> GeneralizedCylinder:
-    """Cut the demonstrations with the planes of the frames and build the sections.
+    """Put the parts together.
 
     `places` says where each demonstration that was given stands among those that are shown here.
     """
-    points, missed = effective_points(trimmed, alignment, frames[:, :, 0])
-    local = (points - alignment.directrix[:, None]) @ frames[:, :, 1:]
-    gone = arc_length(alignment.directrix)
-    radii = section_radii(local, gone, settings.section, settings.angles, settings.half_width)
-    rays = vertex_angles(settings.angles)
-    surface = section_surface(alignment.directrix, frames, rays, radii)
+    normals = slices.frames[:, :, 0]
+    local = (slices.points - alignment.directrix[:, None]) @ slices.frames[:, :, 1:]
     return GeneralizedCylinder(
         directrix=alignment.directrix,
-        frames=frames,
-        angles=rays,
-        radii=radii,
-        effective_points=points[:, places],
+        frames=slices.frames,
+        angles=vertex_angles(settings.angles),
+        radii=slices.radii,
+        effective_points=slices.points[:, places],
         aligned=alignment.aligned[places],
         times=alignment.times,
         orientations=mean_orientations(shown, trimmed, alignment.moments),
@@ -150,13 +158,14 @@ def _assemble(
             trimmed_start=np.array([trimmed[place].cut_start for place in places]),
             trimmed_end=np.array([trimmed[place].cut_end for place in places]),
             duplicates=np.array([trimmed[place].duplicates for place in places], dtype=np.intp),
-            missed=missed[:, places],
+            missed=slices.missed[:, places],
+            smoothed=alignment.smoothed,
             centre_outside=_centre_outside(local),
             minimum_half_width=settings.half_width,
             assumed_width=len(shown) == 1,
-            crossing=crossing_stations(surface, frames[:, :, 0]),
-            tilt=np.zeros(len(frames)),
-            folded=np.zeros(len(frames), dtype=bool),
+            crossing=crossing_stations(slices.surface, normals),
+            tilt=angles_between(normals, tangents(alignment.directrix)),
+            folded=np.zeros(len(normals), dtype=bool),
         ),
     )
 
@@ -170,18 +179,40 @@ def _canonical_order(shown: tuple[Demonstration, ...]) -> list[int]:
     return sorted(range(len(shown)), key=keys.__getitem__)
 
 
-def _checked(section: str, stations: int, angles: int, align_by: str, half_width: float) -> Settings:
+def _shown(demonstrations: Sequence[Demonstration] | Demonstration) -> tuple[Demonstration, ...]:
+    shown = (demonstrations,) if isinstance(demonstrations, Demonstration) else tuple(demonstrations)
+    if not shown:
+        raise NoDemonstrationsError
+    for index, demonstration in enumerate(shown):
+        if not isinstance(demonstration, Demonstration):  # pyright: ignore[reportUnnecessaryIsInstance] - callers
+            raise NotADemonstrationError(index, type(demonstration).__name__)
+    return shown
+
+
+def _checked(
+    section: str, stations: object, angles: object, align_by: str, half_width: float, *, repair: bool
+) -> Settings:
     if section not in SECTIONS:
         raise UnknownOptionError("section", section, SECTIONS)
-    for setting, value, fewest in (
-        ("stations", stations, FEWEST_STATIONS),
-        ("angles", angles, FEWEST_ANGLES),
-    ):
-        if not fewest <= value < np.inf or value != int(value):
-            raise InvalidSettingError(setting, value, f"a whole number of at least {fewest}")
+    if angles is None:
+        angles = HULL_ANGLES if section == "hull" else ANGLES
     if not 0.0 < half_width < np.inf:
         raise InvalidSettingError("The half-width", half_width, "a length above 0 m")
-    return Settings(section, int(stations), int(angles), align_by, float(half_width))
+    return Settings(
+        section=section,
+        stations=_whole("stations", stations, FEWEST_STATIONS),
+        angles=_whole("angles", angles, FEWEST_ANGLES),
+        align_by=align_by,
+        half_width=float(half_width),
+        repair=repair,
+    )
+
+
+def _whole(setting: str, value: object, fewest: int) -> int:
+    number = float(value) if isinstance(value, Real) else np.nan
+    if not (fewest <= number < np.inf and number == int(number)):
+        raise InvalidSettingError(setting, value, f"a whole number of at least {fewest}")
+    return int(number)
 
 
 def _given(directrix: Literal["mean"] | FloatArray) -> FloatArray | None:
@@ -193,29 +224,6 @@ def _given(directrix: Literal["mean"] | FloatArray) -> FloatArray | None:
     if len(curve) < 2:
         raise TooFewSamplesError("The directrix", len(curve))
     return curve
-
-
-def _first_normal(alignment: Alignment, direction: FloatArray) -> FloatArray:
-    """Choose the first N (3,) from the shape alone, so that frames turn with the data and ignore its order.
-
-    Towards the middle of the curve; on straight curves, along the widest spread of the demonstrations.
-    """
-    across = np.eye(3) - np.outer(direction, direction)
-    lean = across @ (alignment.directrix.mean(axis=0) - alignment.directrix[0])
-    length = float(arc_length(alignment.directrix)[-1])
-    if float(np.linalg.norm(lean)) > 1e-3 * length:
-        return lean
-    spread = (alignment.aligned - alignment.directrix).reshape(-1, 3) @ across
-    _, axes = np.linalg.eigh(spread.T @ spread)
-    widest = across @ axes[:, -1]
-    if float(np.linalg.norm(widest)) < 0.5:
-        return across[:, int(np.argmin(np.abs(direction)))]
-    cubes = (spread @ widest) ** 3
-    skew = float(cubes.sum())
-    if abs(skew) <= 1e-9 * float(np.abs(cubes).sum()):
-        # Neither side is longer; a side of the room keeps rounding from choosing.
-        skew = float(widest[np.argmax(np.abs(widest))])
-    return widest if skew >= 0.0 else -widest
 
 
 def _centre_outside(points: FloatArray) -> BoolArray:

@@ -109,6 +109,17 @@ class NoDemonstrationsError(GcError):
         super().__init__("There is no demonstration to learn from. Show at least one motion.")
 
 
+class NotADemonstrationError(GcError):
+    """Something else was given in place of a demonstration."""
+
+    def __init__(self, index: int, kind: str) -> None:
+        super().__init__(
+            f"Number {index + 1} of the demonstrations is of the kind {kind!r}. "
+            "Make a Demonstration of its times and positions."
+        )
+        self.index = index
+
+
 class OpposedDemonstrationsError(GcError):
     """The mean of the demonstrations does not move."""
 
@@ -144,8 +155,9 @@ class UnknownOptionError(GcError):
 class InvalidSettingError(GcError):
     """A number is outside the range in which it makes sense."""
 
-    def __init__(self, setting: str, value: float, wanted: str) -> None:
-        super().__init__(f"{setting} must be {wanted}, but is {value:g}. Choose another value.")
+    def __init__(self, setting: str, value: object, wanted: str) -> None:
+        said = f"{value:g}" if isinstance(value, int | float) else repr(value)
+        super().__init__(f"{setting} must be {wanted}, but is {said}. Choose another value.")
         self.setting = setting
         self.value = value
 

@@ -13,6 +13,10 @@ TANGENT_REACH = 0.03
 """A tangent is fitted over this part of the curve to either side [-]."""
 
 
+NOT_TILTED = 0.98
+"""Directions count as tangents where they are this near to the curve's steps (cosine) [-]."""
+
+
 def smooth(curve: FloatArray, reach: int) -> FloatArray:
     """Average a curve over a moving window; its ends stay where they are.
 
@@ -91,6 +95,12 @@ def tangents(curve: FloatArray) -> FloatArray:
     return slopes / lengths[:, None]
 
 
+def angles_between(one: FloatArray, other: FloatArray) -> FloatArray:
+    """Angles (n,) between unit vectors (n, 3), exact for small ones too [rad]."""
+    apart, together = one - other, one + other
+    return 2.0 * np.arctan2(np.sqrt(_dot(apart, apart)), np.sqrt(_dot(together, together)))
+
+
 def rotation_minimizing_frames(curve: FloatArray, normals: FloatArray, first: FloatArray) -> FloatArray:
     """Carry a frame along a curve without twisting it about the direction.
 
@@ -138,17 +148,21 @@ def _any_perpendicular(directions: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _double_reflection(curve: FloatArray, normals: FloatArray, vectors: FloatArray) -> FloatArray:
-    """Carry vectors[i] (n-1, 3) from point i to point i + 1 by two reflections."""
-    step = np.diff(curve, axis=0)
+    """Carry vectors[i] (n-1, 3) from point i to point i + 1 by two reflections.
+
+    The first mirror is perpendicular to the curve's step. Where the directions are tilted away from the curve
+    it is perpendicular to their sum: that is the smallest rotation of one into the other.
+    """
+    step, both = np.diff(curve, axis=0), normals[1:] + normals[:-1]
+    along = _dot(step, both)
+    tilted = along <= NOT_TILTED * np.sqrt(_dot(step, step) * _dot(both, both))
+    step = np.where(tilted[:, None], both, step)
     square = np.maximum(_dot(step, step), 1e-300)[:, None]
     moved = vectors - (2.0 * _dot(step, vectors)[:, None] / square) * step
     left = normals[:-1] - (2.0 * _dot(step, normals[:-1])[:, None] / square) * step
     mirror = normals[1:] - left
-    size = _dot(mirror, mirror)[:, None]
-    return (
-        moved
-        - np.where(size > 1e-24, 2.0 * _dot(mirror, moved)[:, None] / np.maximum(size, 1e-24), 0.0) * mirror
-    )
+    size = np.maximum(_dot(mirror, mirror), 1e-24)[:, None]
+    return moved - 2.0 * _dot(mirror, moved)[:, None] / size * mirror
 
 
 @lru_cache(maxsize=32)

@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from gc_core.arrays import FloatArray
-from gc_core.cylinder import GeneralizedCylinder, crossing_stations, section_surface
+from gc_core.cylinder import GeneralizedCylinder
 from gc_core.demonstration import sign_continuous
-from gc_core.frames import arc_length, rotation_minimizing_frames, tangents
+from gc_core.frames import angles_between, arc_length, rotation_minimizing_frames, tangents
 from gc_core.radius import loop_radii, slope_limited, widened_to_hold
 from gc_core.registration import ThinPlateSpline
+from gc_core.surface import crossing_stations, section_surface
+from gc_core.tilting import tilted_normals
 
 SLICING_ROUNDS = 4
 """Steps along a line of the mapped surface towards the plane that should cut it."""
 
 
-def generalize(cylinder: GeneralizedCylinder, registration: ThinPlateSpline) -> GeneralizedCylinder:
+def generalize(
+    cylinder: GeneralizedCylinder, registration: ThinPlateSpline, *, repair: bool = True
+) -> GeneralizedCylinder:
     """Bend a cylinder with the space around it.
 
     The directrix and the boundary are mapped and the frames rebuilt. The mapped sections are neither flat nor
@@ -30,6 +34,9 @@ def generalize(cylinder: GeneralizedCylinder, registration: ThinPlateSpline) -> 
         With N stations and M angles.
     registration : ThinPlateSpline
         Map of space, from `register`.
+    repair : bool
+        Tilt the planes where the map makes more sections cross than did before; else they keep their angles
+        to the directrix, which is quicker.
 
     Returns
     -------
@@ -44,15 +51,21 @@ def generalize(cylinder: GeneralizedCylinder, registration: ThinPlateSpline) -> 
     """
     directrix = registration(cylinder.directrix)
     jacobian = registration.jacobian(cylinder.directrix)
-    frames = _frames(cylinder, directrix, jacobian)
-    n_rays = len(cylinder.angles)
-    lines = registration(np.concatenate((cylinder.surface(), cylinder.effective_points), axis=1))
-    local = _cut_again(lines, directrix, frames)
-    length = arc_length(directrix)
-    radii = np.maximum(loop_radii(local[:, :n_rays], n_rays), cylinder.diagnostics.minimum_half_width)
-    radii = slope_limited(widened_to_hold(radii, local[:, n_rays:]), length)
-    points = directrix[:, None] + local[:, n_rays:] @ np.swapaxes(frames[:, :, 1:], 1, 2)
+    along = tangents(directrix)
+    normals = _carried_normals(cylinder, jacobian, along)
+    mapped = _Mapped(
+        cylinder,
+        directrix,
+        registration(np.concatenate((cylinder.surface(), cylinder.effective_points), axis=1)),
+        jacobian[0] @ cylinder.frames[0, :, 1],
+    )
+    frames, radii, points = mapped.cut(normals)
     surface = section_surface(directrix, frames, cylinder.angles, radii)
+    crossing = crossing_stations(surface, normals)
+    if repair and crossing.sum() > cylinder.diagnostics.crossing.sum():
+        normals = tilted_normals(directrix, normals, surface, mapped.surface)
+        frames, radii, points = mapped.cut(normals)
+        crossing = crossing_stations(mapped.surface(normals), normals)
     return replace(
         cylinder,
         directrix=directrix,
@@ -63,25 +76,59 @@ def generalize(cylinder: GeneralizedCylinder, registration: ThinPlateSpline) -> 
         orientations=_turned(cylinder.orientations, jacobian),
         diagnostics=replace(
             cylinder.diagnostics,
-            crossing=crossing_stations(surface, frames[:, :, 0]),
+            crossing=crossing,
+            tilt=angles_between(normals, along),
             folded=np.linalg.det(jacobian) <= 0.0,
         ),
     )
 
 
-def _frames(cylinder: GeneralizedCylinder, directrix: FloatArray, jacobian: FloatArray) -> FloatArray:
-    """Frames (N, 3, 3) along the mapped directrix, tilted from its tangents as the old ones were."""
-    before, after = tangents(cylinder.directrix), tangents(directrix)
-    old = cylinder.frames[:, :, 0]
-    cross = np.cross(before, after)
-    cos = np.einsum("ij,ij->i", before, after)[:, None]
-    # Rodrigues' turn of each old normal by the turn of its tangent; a half turn has no axis of its own.
-    along = np.einsum("ij,ij->i", cross, old)[:, None]
-    normals = old * cos + np.cross(cross, old) + cross * along / np.maximum(1.0 + cos, 1e-9)
-    tilted = cylinder.diagnostics.tilt[:, None] > 0.0
-    normals = np.where(tilted, normals, after)
-    normals = normals / np.sqrt(np.einsum("ij,ij->i", normals, normals))[:, None]
-    return rotation_minimizing_frames(directrix, normals, jacobian[0] @ cylinder.frames[0, :, 1])
+@dataclass(frozen=True, eq=False)
+class _Mapped:
+    """The lines of a mapped cylinder, to be cut by planes."""
+
+    cylinder: GeneralizedCylinder
+    """As it was taught."""
+    directrix: FloatArray
+    """(N, 3) mapped [m]."""
+    lines: FloatArray
+    """(N, M + n, 3) mapped: of the boundary, then of the effective points [m]."""
+    first: FloatArray
+    """(3,) wanted first N [-]."""
+
+    def cut(self, normals: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Cut the lines by planes with these normals (N, 3): frames, radii and effective points."""
+        frames = rotation_minimizing_frames(self.directrix, normals, self.first)
+        local = _cut_again(self.lines, self.directrix, frames)
+        n_rays = len(self.cylinder.angles)
+        radii = np.maximum(
+            loop_radii(local[:, :n_rays], n_rays), self.cylinder.diagnostics.minimum_half_width
+        )
+        step = np.diff(self.directrix, axis=0)
+        length = np.sqrt(np.einsum("ij,ij->i", step, step))[:, None]
+        radii = slope_limited(widened_to_hold(radii, local[:, n_rays:]), length)
+        points = self.directrix[:, None] + local[:, n_rays:] @ np.swapaxes(frames[:, :, 1:], 1, 2)
+        return frames, radii, points
+
+    def surface(self, normals: FloatArray) -> FloatArray:
+        """Vertices (N, M, 3) of the sections in planes with these normals (N, 3) [m]."""
+        frames, radii, _ = self.cut(normals)
+        return section_surface(self.directrix, frames, self.cylinder.angles, radii)
+
+
+def _carried_normals(cylinder: GeneralizedCylinder, jacobian: FloatArray, along: FloatArray) -> FloatArray:
+    """Normals (N, 3) tilted from the new tangents `along` as the old ones were from the old tangents."""
+    if not cylinder.diagnostics.tilt.any():
+        return along
+    turn = _rotations(jacobian)
+    before = (turn @ tangents(cylinder.directrix)[:, :, None])[..., 0]
+    normals = (turn @ cylinder.frames[:, :, :1])[..., 0]
+    # What remains to the new tangent is the smallest rotation; a half turn has no axis of its own.
+    cross = np.cross(before, along)
+    cos = np.einsum("ij,ij->i", before, along)[:, None]
+    share = np.einsum("ij,ij->i", cross, normals)[:, None] / np.maximum(1.0 + cos, 1e-9)
+    normals = normals * cos + np.cross(cross, normals) + cross * share
+    return normals / np.sqrt(np.einsum("ij,ij->i", normals, normals))[:, None]
 
 
 def _cut_again(lines: FloatArray, directrix: FloatArray, frames: FloatArray) -> FloatArray:
@@ -124,13 +171,18 @@ def _cut_again(lines: FloatArray, directrix: FloatArray, frames: FloatArray) -> 
     return (place.reshape(lines.shape) - directrix[:, None]) @ frames[:, :, 1:]
 
 
+def _rotations(jacobian: FloatArray) -> FloatArray:
+    """Rotations (N, 3, 3) nearest to Jacobians (N, 3, 3): their polar factors."""
+    left, _, right = np.linalg.svd(jacobian)
+    left[:, :, 2] *= np.linalg.det(left @ right)[:, None]
+    return np.asarray(left @ right, dtype=np.float64)
+
+
 def _turned(quaternions: FloatArray | None, jacobian: FloatArray) -> FloatArray | None:
     """Turn orientations (N, 4) by the rotation nearest to each Jacobian (N, 3, 3)."""
     if quaternions is None:
         return None
-    left, _, right = np.linalg.svd(jacobian)
-    left[:, :, 2] *= np.linalg.det(left @ right)[:, None]
-    turn = _matrix_quaternions(left @ right)
+    turn = _matrix_quaternions(_rotations(jacobian))
     w, x, y, z = turn.T
     a, b, c, d = quaternions.T
     product = np.stack(

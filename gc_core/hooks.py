@@ -19,6 +19,9 @@ CLOSED = 0.4
 SHARP = 0.5
 """Only paths that turn by more than 60 deg (this cosine) from step to step are searched [-]."""
 
+BESIDE = 2
+"""How a path comes and goes is seen over this many stations."""
+
 MOST_HOOKS = 8
 """Hooks that are taken out of one path."""
 
@@ -27,7 +30,8 @@ def without_hooks(path: FloatArray, grid: FloatArray, places: FloatArray) -> tup
     """Replace the hooks of a path by their chords.
 
     A hook is the piece that is most longer than its chord, among those that are at most `LONGEST_HOOK` of the
-    path long and whose chord is shorter than `CLOSED` of that; one after the other.
+    path long, whose chord is shorter than `CLOSED` of that, and after which the path goes on as it came; one
+    after the other. Turning round for good is no hook.
 
     Parameters
     ----------
@@ -74,12 +78,17 @@ def _worst_hook(path: FloatArray, longest: float) -> tuple[int, int]:
     """First and last point of the hook with the most excess; equal where there is none."""
     gone = arc_length(path)
     worst, best = 0.0, (0, 0)
-    furthest = np.searchsorted(gone, gone + longest, side="right") - np.arange(len(path))
+    index = np.arange(len(path))
+    come = path - path[np.maximum(index - BESIDE, 0)]
+    go = path[np.minimum(index + BESIDE, len(path) - 1)] - path
+    furthest = np.searchsorted(gone, gone + longest, side="right") - index
     for lag in range(2, int(furthest.max())):
         length = gone[lag:] - gone[:-lag]
         chord = path[lag:] - path[:-lag]
         excess = length - np.sqrt(np.einsum("ij,ij->i", chord, chord)) / CLOSED
-        excess[length > longest] = 0.0
+        goes_on = np.einsum("ij,ij->i", come[:-lag], go[lag:]) > 0.0
+        goes_on[[0, -1]] = True
+        excess = np.where(goes_on & (length <= longest), excess, 0.0)
         place = int(np.argmax(excess))
         if excess[place] > worst:
             worst, best = float(excess[place]), (place, place + lag)

@@ -146,8 +146,8 @@ def _next(values: FloatArray) -> FloatArray:
 def widened_to_hold(radii: FloatArray, points: FloatArray) -> FloatArray:
     """Raise vertices until the polygons hold the points.
 
-    The two vertices beside a point are raised to the least common level at which their edge passes
-    through it; the next ones partly, so that little jumps when a point moves past a vertex.
+    Vertices are raised to shares of the least level at which the edge beside a point passes through it. The
+    shares fall with the angle to the point, so that nothing jumps when a point moves past a vertex.
 
     Parameters
     ----------
@@ -166,56 +166,50 @@ def widened_to_hold(radii: FloatArray, points: FloatArray) -> FloatArray:
     index, part = bins(np.arctan2(points[..., 1], points[..., 0]), count)
     rows = np.arange(len(radii))[:, None]
     before, after = radii[rows, index], radii[rows, (index + 1) % count]
-    outside = np.nonzero(distance > chord_radius(before, after, part, count))
+    edge = chord_radius(before, after, part, count)
+    outside = np.nonzero(distance > edge)
     if not outside[0].size:
         return radii
     row, index, part, distance = outside[0], index[outside], part[outside], distance[outside]
-    before, after = before[outside], after[outside]
-    level = _common_level(before, after, part, distance, count)
-    lacking = distance / chord_radius(before, after, part, count) - 1.0
-    spill = np.minimum(lacking / FULL_SPILL, 1.0)
+    spill = np.minimum((distance / edge[outside] - 1.0) / FULL_SPILL, 1.0)
+    near, far = 1.0 - (1.0 - spill) * part, 1.0 - (1.0 - spill) * (1.0 - part)
+    before, after = before[outside] / near, after[outside] / far
+    # At a common level the edge has 1 / r = other / level + weight / level.
+    step = 2.0 * np.pi / count
+    weight, other = (
+        np.sin(part * step) / np.sin(step) / far,
+        np.sin((1.0 - part) * step) / np.sin(step) / near,
+    )
+    level = distance * (weight + other)
+    # Where one of the two already stands above that level, the other one is raised alone.
+    high = np.maximum(before, after)
+    kept = np.where(before >= after, other, weight) / high
+    alone = (weight + other - kept * high) / np.maximum(1.0 / distance - kept, np.finfo(float).tiny)
+    level = np.where(level >= high, level, alone)
     raised = radii.copy()
-    for offset, share in ((-1, spill * (1.0 - part)), (0, 1.0), (1, 1.0), (2, spill * part)):
-        vertex = (index + offset) % count
-        now = radii[row, vertex]
-        np.maximum.at(raised, (row, vertex), now + share * np.maximum(level - now, 0.0))
+    for offset, share in ((-1, spill * (1.0 - part)), (0, near), (1, far), (2, spill * part)):
+        np.maximum.at(raised, (row, (index + offset) % count), share * level)
     return raised
 
 
-def _common_level(
-    before: FloatArray, after: FloatArray, part: FloatArray, distance: FloatArray, count: int
-) -> FloatArray:
-    """Least level (K,) to which two vertices must be raised for their edge to pass a point at a distance.
-
-    The edge at a part of the angle has 1 / r = weight / after + other / before.
-    """
-    step = 2.0 * np.pi / count
-    weight, other = np.sin(part * step) / np.sin(step), np.sin((1.0 - part) * step) / np.sin(step)
-    high = np.maximum(before, after)
-    high_weight = np.where(before >= after, other, weight)
-    left = 1.0 / distance - high_weight / high
-    only_low = (weight + other - high_weight) / np.where(left > 0.0, left, np.inf)
-    return np.where((left > 0.0) & (only_low <= high), only_low, distance * (weight + other))
-
-
-def slope_limited(radii: FloatArray, length: FloatArray, slope: float = GREATEST_SLOPE) -> FloatArray:
+def slope_limited(radii: FloatArray, steps: FloatArray, slope: float = GREATEST_SLOPE) -> FloatArray:
     """Smallest radius function above the given one that changes slowly along the curve.
 
     Parameters
     ----------
     radii : (N, M) array
         [m].
-    length : (N,) array
-        Arc length at the sections, not decreasing [m].
+    steps : (N - 1, M) or (N - 1, 1) array
+        Length gone from one section to the next, not negative [m].
     slope : float
-        Greatest change of radius per arc length [-].
+        Greatest change of radius per length [-].
 
     Returns
     -------
     (N, M) array
         Nowhere less than `radii` [m].
     """
-    ramp = slope * length[:, None]
+    ramp = slope * np.concatenate((np.zeros((1, steps.shape[1])), np.cumsum(steps, axis=0)))
     rising = np.maximum.accumulate(radii + ramp, axis=0) - ramp
     falling = np.maximum.accumulate((radii - ramp)[::-1], axis=0)[::-1] + ramp
     return np.maximum(radii, np.maximum(rising, falling))

@@ -13,7 +13,7 @@ import numpy as np
 
 from gc_core.arrays import FloatArray, IntArray, read_only
 from gc_core.errors import UnknownOptionError
-from gc_core.radius import loop_radii, slope_limited, vertex_angles, widened_to_hold
+from gc_core.radius import loop_radii, vertex_angles, widened_to_hold
 
 SUPPORT_DIRECTIONS = 32
 """Directions in which the outermost points are looked for."""
@@ -28,17 +28,13 @@ ELLIPSE_ROUNDS = 12
 """Rounds towards the smallest ellipse; the last step scales it so that it holds all points."""
 
 
-def section_radii(
-    points: FloatArray, length: FloatArray, kind: str, count: int, half_width: float
-) -> FloatArray:
+def section_radii(points: FloatArray, kind: str, count: int, half_width: float) -> FloatArray:
     """Build the sections of one tube.
 
     Parameters
     ----------
     points : (N, n, 2) array
         Effective points relative to the centres, in the sections' axes [m].
-    length : (N,) array
-        Arc length at the sections [m].
     kind : str
         One of `SECTIONS`.
     count : int
@@ -49,7 +45,7 @@ def section_radii(
     Returns
     -------
     (N, count) array
-        Radii; every point lies inside its polygon, and the change along the curve is limited [m].
+        Radii; every point lies inside its polygon [m].
 
     Raises
     ------
@@ -60,7 +56,7 @@ def section_radii(
     if build is None:
         raise UnknownOptionError("section", kind, SECTIONS)
     radii = np.maximum(build(points, count, half_width), half_width)
-    return slope_limited(widened_to_hold(radii, points), length)
+    return widened_to_hold(radii, points)
 
 
 def circle(points: FloatArray, count: int, half_width: float) -> FloatArray:

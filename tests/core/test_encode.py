@@ -347,15 +347,3 @@ def test_nothing_shown_is_refused() -> None:
 def test_demonstrations_in_opposite_directions_are_refused() -> None:
     with pytest.raises(OpposedDemonstrationsError):
         encode([line((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)), line((1.0, 0.0, 0.0), (0.0, 0.0, 0.0))])
-
-
-def test_sections_that_cut_their_neighbours_are_found_on_a_hairpin() -> None:
-    angle = np.linspace(0.0, np.pi, 200)
-    shown = [
-        Demonstration(angle, np.stack((r * np.cos(angle), r * np.sin(angle), z + 0 * angle), axis=1))
-        for r, z in ((0.005, 0.0), (0.1, 0.0), (0.05, 0.06), (0.05, -0.06))
-    ]
-    straight = encode([line((0.0, y, 0.0), (1.0, y, 0.0)) for y in (0.0, 0.1)])
-
-    assert encode(shown, section="circle").diagnostics.crossing.any()
-    assert not straight.diagnostics.crossing.any()

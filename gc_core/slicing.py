@@ -1,0 +1,118 @@
+"""Aligned demonstrations -> section planes and what they cut: frames, effective points, sections."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gc_core.alignment import Alignment
+from gc_core.arrays import BoolArray, FloatArray
+from gc_core.crossings import effective_points
+from gc_core.demonstration import Trimmed
+from gc_core.frames import arc_length, rotation_minimizing_frames, tangents
+from gc_core.radius import vertex_angles
+from gc_core.sections import section_radii
+from gc_core.surface import crossing_stations, gently_changing, section_surface
+from gc_core.tilting import tilted_normals
+
+REPAIR_ANGLES = 32
+"""Vertices of the sections while planes are being tilted, at most."""
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How to encode; see `encode`."""
+
+    section: str
+    stations: int
+    angles: int
+    align_by: str
+    half_width: float
+    repair: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Slices:
+    """The demonstrations cut by the planes of some frames."""
+
+    frames: FloatArray
+    """(N, 3, 3)"""
+    points: FloatArray
+    """(N, n, 3) effective points [m]."""
+    missed: BoolArray
+    """(N, n) where a demonstration does not cross the plane near its station."""
+    radii: FloatArray
+    """(N, M) [m]."""
+    surface: FloatArray
+    """(N, M, 3) [m]."""
+
+
+def slices_of(trimmed: tuple[Trimmed, ...], alignment: Alignment, settings: Settings) -> Slices:
+    """Cut demonstrations perpendicular to the directrix, or tilted where sections would cross.
+
+    Parameters
+    ----------
+    trimmed : tuple of Trimmed
+    alignment : Alignment
+        Of these demonstrations.
+    settings : Settings
+
+    Returns
+    -------
+    Slices
+        At the alignment's stations.
+    """
+    along = tangents(alignment.directrix)
+    first = _first_normal(alignment, along[0])
+    slices = _cut(trimmed, alignment, along, first, settings)
+    if not settings.repair or not crossing_stations(slices.surface, along).any():
+        return slices
+    coarse = replace(settings, angles=min(settings.angles, REPAIR_ANGLES))
+    normals = tilted_normals(
+        alignment.directrix,
+        along,
+        slices.surface,
+        lambda normals: _cut(trimmed, alignment, normals, first, coarse).surface,
+    )
+    return slices if normals is along else _cut(trimmed, alignment, normals, first, settings)
+
+
+def _cut(
+    trimmed: tuple[Trimmed, ...],
+    alignment: Alignment,
+    normals: FloatArray,
+    first: FloatArray,
+    settings: Settings,
+) -> Slices:
+    """Cut the demonstrations by planes with the given normals (N, 3); the first N axis is near `first`."""
+    frames = rotation_minimizing_frames(alignment.directrix, normals, first)
+    points, missed = effective_points(trimmed, alignment, normals)
+    local = (points - alignment.directrix[:, None]) @ frames[:, :, 1:]
+    radii = section_radii(local, settings.section, settings.angles, settings.half_width)
+    radii = gently_changing(alignment.directrix, frames, radii)
+    surface = section_surface(alignment.directrix, frames, vertex_angles(settings.angles), radii)
+    return Slices(frames, points, missed, radii, surface)
+
+
+def _first_normal(alignment: Alignment, direction: FloatArray) -> FloatArray:
+    """Choose the first N (3,) from the shape alone, so that frames turn with the data and ignore its order.
+
+    Towards the middle of the curve; on straight curves, along the widest spread of the demonstrations.
+    """
+    across = np.eye(3) - np.outer(direction, direction)
+    lean = across @ (alignment.directrix.mean(axis=0) - alignment.directrix[0])
+    length = float(arc_length(alignment.directrix)[-1])
+    if float(np.linalg.norm(lean)) > 1e-3 * length:
+        return lean
+    spread = (alignment.aligned - alignment.directrix).reshape(-1, 3) @ across
+    _, axes = np.linalg.eigh(spread.T @ spread)
+    widest = across @ axes[:, -1]
+    if float(np.linalg.norm(widest)) < 0.5:
+        return across[:, int(np.argmin(np.abs(direction)))]
+    cubes = (spread @ widest) ** 3
+    skew = float(cubes.sum())
+    if abs(skew) <= 1e-9 * float(np.abs(cubes).sum()):
+        # Neither side is longer; a side of the room keeps rounding from choosing.
+        skew = float(widest[np.argmax(np.abs(widest))])
+    return widest if skew >= 0.0 else -widest
