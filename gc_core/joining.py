@@ -73,8 +73,9 @@ def joins_of(cylinder: GeneralizedCylinder, starts: FloatArray, at: float | None
         rows, first = np.unique(found.rows[holding], return_index=True)
         passage[rows] = holding[first]
         index = np.zeros(len(starts), dtype=np.intp)
-        index[~inside] = entrances(cylinder, starts[~inside])
-        passage = np.where(inside, passage, _nearest(found, index, back=1.0))
+        if not inside.all():
+            index[~inside] = entrances(cylinder, starts[~inside])
+            passage = np.where(inside, passage, _nearest(found, index, back=1.0))
     else:
         index = np.full(len(starts), round(at), dtype=np.intp)
         passage = _nearest(found, index, back=0.0)

@@ -76,24 +76,37 @@ def way_of(
     cylinder: GeneralizedCylinder, starts: FloatArray, joins: Joins, kept: FloatArray, final: FloatArray
 ) -> Way:
     """Find what starts (S, 3) are off the rule's path where they join, and how slowly that fades out."""
-    sweep, gone = cylinder.sweep, cylinder.arc_length
+    gone = cylinder.arc_length
     begin = np.interp(joins.stations, np.arange(len(gone)), gone)
-    index = np.minimum(joins.stations.astype(np.intp), sweep.last - 1)
-    part = joins.stations - index
-    place = between(sweep.places, index, part)
-    across = np.cos(joins.angles)[:, None] * place[:, 3:6] + np.sin(joins.angles)[:, None] * place[:, 6:]
-    edge = edge_distance(sweep, index, part, joins.angles)
-    offsets = starts - place[:, :3] - (kept * edge)[:, None] * across
-    # A section that passes through the start itself was joined: what is left is rounding.
-    offsets = np.where((joins.projected | (kept != joins.ratios))[:, None], offsets, 0.0)
-    size = np.sqrt(np.einsum("ij,ij->i", offsets, offsets))
-    tenth = JOIN_LENGTH * gone[-1]
-    reach = np.minimum(np.maximum(CALM * size, tenth), gone[-1] - begin)
-    reach = np.maximum(reach, np.minimum(HURRIED * size, tenth))
-    reach = np.where(size > ROUNDING * gone[-1], reach, 0.0)
+    # Where a section passes through the start itself, only rounding is left.
+    off = np.flatnonzero(joins.projected | (kept != joins.ratios))
+    offsets, reach = np.zeros_like(starts), np.zeros(len(starts))
+    if off.size:
+        offsets[off] = starts[off] - _rule_begins(cylinder, joins.stations[off], joins.angles[off], kept[off])
+        reach[off] = _reach(offsets[off], gone[-1] - begin[off], gone[-1])
     return Way(
         starts, joins.stations, begin, joins.angles, joins.ratios, kept, final, offsets=offsets, reach=reach
     )
+
+
+def _rule_begins(
+    cylinder: GeneralizedCylinder, stations: FloatArray, angles: FloatArray, ratios: FloatArray
+) -> FloatArray:
+    """Positions (S, 3) of the ratio rule at single stations (S,)."""
+    index = np.minimum(stations.astype(np.intp), cylinder.sweep.last - 1)
+    part = stations - index
+    place = between(cylinder.sweep.places, index, part)
+    across = np.cos(angles)[:, None] * place[:, 3:6] + np.sin(angles)[:, None] * place[:, 6:]
+    return place[:, :3] + (ratios * edge_distance(cylinder.sweep, index, part, angles))[:, None] * across
+
+
+def _reach(offsets: FloatArray, left: FloatArray, length: float) -> FloatArray:
+    """Arc lengths (S,) over which offsets (S, 3) fade out, with so much left (S,) of the whole."""
+    size = np.sqrt(np.einsum("ij,ij->i", offsets, offsets))
+    tenth = JOIN_LENGTH * length
+    reach = np.minimum(np.maximum(CALM * size, tenth), left)
+    reach = np.maximum(reach, np.minimum(HURRIED * size, tenth))
+    return np.where(size > ROUNDING * length, reach, 0.0)
 
 
 def runs(cylinder: GeneralizedCylinder, way: Way, stations: FloatArray) -> tuple[FloatArray, FloatArray]:
