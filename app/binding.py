@@ -120,6 +120,12 @@ def on_press(button: viser.GuiButtonHandle, action: Callable[[], None]) -> None:
     button.on_click(pressed)
 
 
+def element_id(button: viser.GuiButtonHandle) -> str:
+    """Id of a button's element in the page, so that HTML may be its label; a browser story watches it."""
+    own: Any = button
+    return str(own._impl.uuid)  # viser 1.1.1 gives it nowhere else
+
+
 def on_choice(group: viser.GuiButtonGroupHandle, action: Callable[[int], None]) -> None:
     """Post an action with the place of the option that a person pressed in a row of buttons."""
 

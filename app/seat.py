@@ -8,6 +8,8 @@ from app.actions import Drag, ViewName
 from app.desk import Desk
 from app.document import Document, FloatArray
 from app.files import Frame, Unit
+from app.library import Library
+from app.pages import fresh_code
 
 if TYPE_CHECKING:
     from app.session import Session
@@ -18,6 +20,7 @@ class Seat:
 
     def __init__(self, session: "Session", client_id: int) -> None:
         self._session, self._client_id = session, client_id
+        self._kept: tuple[Document | None, str] = None, ""
 
     def _post(self, act: Callable[[Desk, float], None]) -> None:
         self._session.post(self._client_id, act)
@@ -83,10 +86,24 @@ class Seat:
         self._post(lambda desk, _: desk.decline_file())
 
     def open_skill(self, name: str) -> None:
-        """See `Actions.open_skill`."""
-        folder = self._session.skills_folder
+        """See `Actions.open_skill`; one's own work also gets an address where it stays."""
+        workshop = self._session.workshop
 
         def open_it(desk: Desk, now: float) -> None:
-            desk.open(skills.load_skill(folder, name) if name else skills.empty_skill(), now)
+            opened = skills.load_skill(workshop.skills_folder, name) if name else skills.empty_skill()
+            desk.let_go(now)
+            where = self._put_away(desk.store.document, workshop.library)
+            desk.open(opened, now)
+            if where:
+                desk.say(where)
 
         self._post(open_it)
+
+    def _put_away(self, document: Document, library: Library) -> str:
+        """Save one's own work under a code of its own; returns the sentence that says where."""
+        if document.built_in or not document.demonstrations:
+            return ""
+        code = self._kept[1] if document is self._kept[0] else fresh_code()
+        library.save(code, document)
+        self._kept = document, code
+        return f"{document.title} is kept at /s/{code}. Undo brings it back here."

@@ -10,7 +10,7 @@ import threading
 import time
 from collections.abc import Callable, Sequence, Set
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
@@ -24,8 +24,10 @@ from app.desk import Desk
 from app.document import Document, FloatArray
 from app.files import inspect_bytes
 from app.library import Library, LibraryError
+from app.model import Model
 from app.scene import VIEWS
 from app.seat import Seat
+from app.shapes import Shapes, same_but_for_section, shapes_of
 from app.store import Plan, State
 from app.viewers import Viewer
 from gc_core import GcError
@@ -59,9 +61,8 @@ class Session:
 
     def __init__(self, code: str, document: Document, workshop: Workshop) -> None:
         self.code: Final = code
-        self.skills_folder: Final = workshop.skills_folder
+        self.workshop: Final = workshop
         self.empty_since: float | None = time.monotonic()
-        self._workshop = workshop
         self._arm = workshop.make_arm()
         try:
             self._desk = Desk(document, self._arm)
@@ -71,6 +72,8 @@ class Session:
         self._viewers: dict[int, Viewer] = {}
         self._works: int | None = None
         self._planned: tuple[object, int] | None = None
+        self._shaped: Model | None = None
+        self._shapes: Shapes | None = None
         self._logged = ""
         self._time = self._touched = self._save_after = self.clock()
         self._writing = threading.Lock()
@@ -78,6 +81,7 @@ class Session:
         self._plans = Latest(workshop.workers, self._actor)
         self._saves = Latest(workshop.workers, self._actor)
         self._files = Latest(workshop.workers, self._actor)
+        self._drawings = Latest(workshop.workers, self._actor)
 
     @staticmethod
     def clock() -> float:
@@ -131,7 +135,7 @@ class Session:
     def _work(self, client: viser.ClientHandle) -> None:
         self._works = client.client_id
         seat = Seat(self, client.client_id)
-        viewer = viewers.working(client, seat, self._arm, self.clock, self._workshop.skills)
+        viewer = viewers.working(client, seat, self._arm, self.clock, self.workshop.skills)
         self._show(viewer)
 
     def _watch(self, client: viser.ClientHandle) -> None:
@@ -217,13 +221,26 @@ class Session:
         return self._desk.tick(now, dt if dt < LONGEST_TICK else TICK)
 
     def _draw(self) -> None:
-        state = self._desk.state()
+        state = replace(self._desk.state(), shapes=self._shapes)
         try:
             for viewer in tuple(self._viewers.values()):
                 viewer.draw(state)
         finally:  # what cannot be drawn is saved all the same
             self._save()
             self._plan(state)
+            self._shape(state)
+
+    def _shape(self, state: State) -> None:
+        """Have the skill drawn in every kind of cross-section, unless it is or will be."""
+        model = state.model
+        if state.dragging is not None or model.cylinder is None:
+            return
+        if self._shaped is None or not same_but_for_section(self._shaped, model):
+            self._shaped = model
+            self._drawings.submit(lambda: shapes_of(model), self._accept_shapes)
+
+    def _accept_shapes(self, shapes: Shapes) -> None:
+        self._shapes = shapes
 
     def _plan(self, state: State) -> None:
         model, run = state.model, state.playback.run
@@ -234,7 +251,7 @@ class Session:
         near = state.hand.joints if self._desk.plan is None else self._desk.plan.path.joints[0]
 
         def job() -> Plan:
-            arm = self._workshop.make_arm()
+            arm = self.workshop.make_arm()
             try:
                 return Plan(model, run, arm.follow(positions, near))
             finally:
@@ -254,7 +271,7 @@ class Session:
         with self._writing:
             if document is self._desk.saving:
                 try:
-                    self._workshop.library.save(self.code, document)
+                    self.workshop.library.save(self.code, document)
                 except LibraryError as error:
                     return error
             return None

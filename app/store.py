@@ -13,6 +13,7 @@ from app.arm.protocol import JointPath, Shortfall
 from app.document import Document, FloatArray, View
 from app.files import Frame, Unit
 from app.model import Model
+from app.shapes import Shapes
 
 MERGE_WITHIN: Final = 1.0
 """Edits of one key closer together than this are one undo step [s]."""
@@ -103,6 +104,8 @@ class State:
     """Whether the message says that something is wrong."""
     offer: Offer | None = None
     """A file that waits to be accepted."""
+    shapes: Shapes | None = None
+    """The skill in every kind of cross-section; of a former model until those of this one are made."""
     saved: bool = True
     """Whether the library holds the committed document."""
 

@@ -15,6 +15,7 @@ from app.panels.encoding import EncodingPanel
 from app.panels.hand import HandPanel
 from app.panels.header import HeaderPanel
 from app.panels.keys import Keys
+from app.panels.kinds import KindsPanel
 from app.panels.landmarks import LandmarksPanel
 from app.panels.lesson import LessonPanel
 from app.panels.offer import OfferPanel
@@ -78,6 +79,7 @@ def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]
             DemonstrationsPanel(gui, actions),
             OfferPanel(gui, actions),
             HandPanel(gui, actions),
+            KindsPanel(gui, actions),
             EncodingPanel(gui, actions),
         )
     with tabs.add_tab("Try", viser.Icon.PLAYER_PLAY):

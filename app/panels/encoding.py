@@ -1,4 +1,4 @@
-"""The shape of the slices, and what lies under the hood."""
+"""What lies under the hood: how demonstrations become a tube, and how large and clean it is."""
 
 from collections.abc import Mapping
 from functools import partial
@@ -8,17 +8,12 @@ import viser
 
 from app import edits
 from app.actions import Actions
-from app.binding import QUIET, STRONG, Binding, Changed, anything, assign, on_press, one_of
-from app.document import Alignment, SectionKind
+from app.binding import Binding, Changed, anything, assign, one_of
+from app.document import Alignment
 from app.model import Model
 from app.panels import words
 from app.store import State
 
-PICTURES: Final[Mapping[SectionKind, tuple[str, viser.IconName]]] = {
-    "circle": ("Circle", viser.Icon.CIRCLE),
-    "ellipse": ("Ellipse", viser.Icon.OVAL),
-    "closed_spline": ("Free shape (closed spline)", viser.Icon.VECTOR_SPLINE),
-}
 ALIGNMENT_WORDS: Final[Mapping[str, Alignment]] = {
     "way (arc length)": "arc_length",
     "place (time warping)": "dtw",
@@ -27,15 +22,9 @@ ALIGNMENT_WORDS: Final[Mapping[str, Alignment]] = {
 
 
 class EncodingPanel:
-    """Three pictures for the section kind; alignment, stations and facts in a folder."""
+    """Alignment, stations and facts in a folder."""
 
     def __init__(self, gui: viser.GuiApi, actions: Actions) -> None:
-        gui.add_html(words.note("Shape of the slices (cross-sections)", strong=True))
-        self._kinds: Mapping[SectionKind, viser.GuiButtonHandle] = {
-            kind: gui.add_button(label, icon=icon) for kind, (label, icon) in PICTURES.items()
-        }
-        for kind, button in self._kinds.items():
-            on_press(button, partial(_choose, actions, kind))
         with gui.add_folder("Under the hood", expand_by_default=False):
             self._bindings = (
                 _add_alignment(gui, actions),
@@ -46,10 +35,7 @@ class EncodingPanel:
         self._changed = Changed()
 
     def draw(self, state: State) -> None:
-        """Mark the chosen kind and state the facts."""
-        chosen = state.document.settings.section
-        for kind, button in self._kinds.items():
-            assign(button, color=STRONG if kind == chosen else QUIET)
+        """Show the settings and state the facts."""
         for binding in self._bindings:
             binding.draw(state)
         if state.dragging is None and self._changed(state.model):
@@ -65,12 +51,8 @@ def facts(model: Model) -> str:
     return (
         f"Middle line (directrix) of {words.cm(float(cylinder.arc_length[-1]))} with {stations} slices of "
         f"{per_station} points; mean time {words.seconds(float(cylinder.times[-1]))}; volume "
-        f"{1e3 * cylinder.volume:.2g} l. "
+        f"{words.volume(cylinder.volume)}. "
     ) + " ".join(cylinder.diagnostics.sentences())
-
-
-def _choose(actions: Actions, kind: SectionKind) -> None:
-    actions.edit(partial(edits.set_section, section=kind), "choose the shape of the slices")
 
 
 def _add_alignment(gui: viser.GuiApi, actions: Actions) -> Binding[str]:

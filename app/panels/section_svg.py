@@ -5,6 +5,7 @@ from typing import Final
 import numpy as np
 
 from app.document import FloatArray
+from app.palette import BLUE, MAGENTA, RED
 from gc_core import GeneralizedCylinder, Reproduction
 
 WIDTH: Final = 260.0
@@ -17,10 +18,6 @@ BAR_LENGTHS: Final = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
 """The scale bar has one of these lengths [m]."""
 ZOOMS: Final = (1, 2, 4, 8)
 """How often a slice is enlarged; few steps, so that a change of size is seen as such."""
-RED: Final = "light-dark(#C4161C,#FF5A4F)"
-BLUE: Final = "light-dark(#1F3FA8,#6E8BFF)"
-MAGENTA: Final = "light-dark(#E04BDC,#F59BF2)"
-"""Of the light and the dark theme; a function of CSS, so only for `style`."""
 
 
 def section_svg(cylinder: GeneralizedCylinder, station: int, reproduction: Reproduction | None) -> str:

@@ -5,8 +5,9 @@ from typing import Final
 import viser
 
 from app.binding import Changed, assign
+from app.palette import BLUE, MAGENTA, RED
 from app.panels import words
-from app.panels.section_svg import BLUE, MAGENTA, RED, section_svg, size
+from app.panels.section_svg import section_svg, size
 from app.player import station_at
 from app.store import State
 

@@ -22,7 +22,8 @@ class StatusPanel:
 
     def draw(self, state: State) -> None:
         """Say the most urgent of these things."""
-        if self._changed(state.message, state.warning, state.model, state.hand.recording is None):
+        recording = state.hand.recording is not None
+        if self._changed(state.message, state.warning, state.model, recording, state.dragging is None):
             assign(self._line, content=status(state))
 
 
@@ -33,6 +34,8 @@ def status(state: State) -> str:
     else:
         # The lesson shows what the skill is about; here would be the same sentence again.
         message = "" if state.message == state.document.about else state.message
+        if message and not state.warning and state.dragging is None and words.drawn_flat(state.model):
+            message = f"{message} {words.FLAT}"
         color = AMBER if state.warning else "inherit"
         line = words.note(words.escape(message or words.taught(state.model)), strong=True, color=color)
     return f'<div role="status" style="min-height:3rem">{line}</div>'

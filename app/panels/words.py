@@ -1,11 +1,16 @@
 """Numbers and causes in a teacher's words: centimetres, seconds, percent, whole sentences."""
 
 from html import escape as _escape
+from typing import Final
 
 import numpy as np
 
 from app.document import FloatArray
 from app.model import Anchor, Model
+
+THINNEST: Final = 0.03
+"""Demonstrations thinner than this, as a part of their breadth, were drawn in one plane."""
+FLAT: Final = "So the tube is flat: turn the view, or hold Shift, and show the motion once more."
 
 
 def escape(text: str) -> str:
@@ -26,6 +31,14 @@ def cm(length: float) -> str:
     """A length [m] in centimetres: one decimal below 10 cm."""
     value = 100.0 * length
     return f"{value:.1f} cm" if abs(value) < 9.95 else f"{value:.0f} cm"
+
+
+def volume(size: float) -> str:
+    """A volume [m^3] in litres, a small one in cubic centimetres."""
+    litres = 1e3 * size
+    if litres < 0.0995:
+        return f"{1e3 * litres:.0f} cm³" if litres >= 0.00995 else f"{1e3 * litres:.1f} cm³"
+    return f"{litres:.2f} l" if litres < 0.995 else f"{litres:.1f} l"
 
 
 def seconds(time: float) -> str:
@@ -80,6 +93,19 @@ def bending(model: Model) -> str:
     return f"You moved the {listed}; nothing was taught again.{how}"
 
 
+def drawn_flat(model: Model) -> bool:
+    """Whether several demonstrations lie in one plane, as a mouse draws them unless the view is turned.
+
+    Measured by the standard deviations of their places along the principal axes: the least is below
+    `THINNEST` of the second one.
+    """
+    if len(model.demonstrations) < 2:
+        return False
+    places = np.concatenate([d.positions for d in model.demonstrations])
+    variances = np.linalg.eigvalsh(np.cov(places.T))
+    return bool(max(variances[0], 0.0) < THINNEST**2 * variances[1])
+
+
 def taught(model: Model) -> str:
     """Say what was learned, or why nothing was."""
     if model.problem is not None:
@@ -91,5 +117,7 @@ def taught(model: Model) -> str:
         return "All demonstrations are muted. Learn from at least one of them."
     if used == 1:
         return "Shown once. Show it again a little differently, and the tube learns what may vary."
+    if drawn_flat(model):
+        return f"All {used} demonstrations were drawn in one plane. {FLAT}"
     from_all = "" if used == shown else f" of {shown}"
     return f"Learned from {used}{from_all} demonstrations. Wide: free. Narrow: must be exact."

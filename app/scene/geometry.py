@@ -76,6 +76,14 @@ def torus(radius: float, thickness: float, around: int = 40, sides: int = 8) -> 
     return tube_mesh(surface, closed=True)
 
 
+def together(*bodies: tuple[Vertices, Faces]) -> tuple[Vertices, Faces]:
+    """Several bodies as one; made anew at each call, so keep it."""
+    counts = [len(vertices) for vertices, _ in bodies]
+    before = np.cumsum([0, *counts[:-1]])
+    faces = np.concatenate([f + shift for (_, f), shift in zip(bodies, before, strict=True)])
+    return np.concatenate([vertices for vertices, _ in bodies]), _frozen(faces.astype(np.uint32))
+
+
 def stem(height: float, radius: float, sides: int = 12) -> tuple[Vertices, Faces]:
     """An open vertical tube from the origin down by ``height`` [m]; up where it is negative."""
     height = height if abs(height) >= 1e-3 else 1e-3

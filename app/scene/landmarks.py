@@ -1,7 +1,7 @@
 """What the motion is tied to, in yellow: pull one and the tube bends.
 
-The goal is a ball on a stand. The start is the stand alone, because the hand and the
-magenta ball are at its top.
+The goal is a ball on a stand over two rings, as on a target. The start is the stand with
+one ring, because the hand and the magenta ball are at its top.
 """
 
 from collections.abc import Callable
@@ -12,7 +12,7 @@ import viser
 
 from app.actions import Actions
 from app.model import Anchor
-from app.scene.geometry import stem, torus
+from app.scene.geometry import stem, together, torus
 from app.scene.grip import Grip
 from app.scene.nodes import Ball, Line, Mesh
 from app.scene.polyline import dashes
@@ -50,6 +50,7 @@ class _Landmark:
         node = f"/landmarks/{name}"
         self._ball = None if name == "start" else Ball(api, node, radius=LANDMARK_RADIUS, color=LANDMARK)
         self._stem = Mesh(api, node if name == "start" else f"{node}/stem", color=LANDMARK)
+        self._foot = _RING if name == "start" else _TARGET
         self._ring = Mesh(api, f"{node}/ring", color=LANDMARK)
         self._ghost = Ball(api, f"/taught/{name}", radius=GHOST_RADIUS, color=LANDMARK_GHOST)
         self._way = Line(api, f"/taught/{name}/way", color=LANDMARK)
@@ -84,7 +85,7 @@ class _Landmark:
         node = self._stem.handle
         if node is None or height != self._height:
             node = self._stem.show(*stem(height, STEM_RADIUS))
-            self._ring.show(*_RING).position = (0.0, 0.0, 0.5 * RING_THICKNESS - height)
+            self._ring.show(*self._foot).position = (0.0, 0.0, 0.5 * RING_THICKNESS - height)
             self._height = height
         if self._ball is None:
             node.position = anchor.now
@@ -104,3 +105,4 @@ class _Landmark:
 
 
 _RING: Final = torus(RING_RADIUS, RING_THICKNESS)
+_TARGET: Final = together(_RING, torus(0.45 * RING_RADIUS, RING_THICKNESS))

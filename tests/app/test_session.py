@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -422,6 +423,38 @@ def test_an_empty_skill_of_ones_own_can_be_opened_and_undone(client: FakeClient)
     press(client, "Undo:")
 
     client.wait(lambda c: picture(c) == before)
+
+
+def test_ones_own_work_keeps_an_address_when_another_skill_is_opened(
+    server: Server, client: FakeClient
+) -> None:
+    show_one(client)
+    client.set_gui("Open", "Needle")
+    kept = re.compile(r"kept at /s/([\w-]+)")
+    found = client.wait(lambda c: kept.search(c.text()))
+
+    assert client.value("Skill") == "Needle"
+    with tab(server, found[1]) as other:
+        assert other.value("Skill") == "My reaching"
+        assert other.node("/demonstrations/3").visible
+
+
+def test_a_built_in_skill_that_was_only_looked_at_is_not_kept(client: FakeClient) -> None:
+    client.set_gui("Open", "Needle")
+    client.wait(lambda c: c.value("Skill") == "Needle")
+
+    assert "kept at" not in client.text()
+
+
+def test_the_skill_is_drawn_in_every_kind_of_slice_and_again_when_it_changes(client: FakeClient) -> None:
+    def volumes(c: FakeClient) -> list[str]:
+        return re.findall(r"<b>([\d.]+ (?:l|cm³))</b>", c.text())
+
+    client.wait(lambda c: len(volumes(c)) == 3)
+    before = volumes(client)
+    pull(client, "/landmarks/goal", BY)
+
+    client.wait(lambda c: len(volumes(c)) == 3 and volumes(c) != before)
 
 
 def test_a_full_server_says_so_and_goes_on_serving(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 
 from app import edits
 from app.document import View
+from app.shapes import shapes_of
 from app.store import Hand, Offer, Playback
 from gc_core import Constraint
 from tests.panels.desk import Bench, state_of, taught
@@ -237,6 +239,40 @@ def test_the_chosen_section_kind_is_the_one_that_stands_out(bench: Bench) -> Non
     assert chosen.settings.section == "circle"
     assert bench.client.element("Circle").props["color"] != before
     assert bench.client.element("Ellipse").props["color"] == before
+
+
+def test_the_skill_is_shown_in_every_kind_and_each_picture_is_the_label_of_its_button(bench: Bench) -> None:
+    state = state_of(taught())
+    bench.draw(replace(state, shapes=shapes_of(state.model)))
+    text = bench.client.text()
+
+    for label in ("Circle", "Ellipse", "Free shape"):
+        assert f'<label for="{bench.client.element(label, "Button").uuid}"' in text
+    assert text.count("&times; tightest") == 3
+
+
+def pictures(text: str) -> list[str]:
+    """What stands on the cards, one a kind."""
+    return re.findall(r"<b>[^<]*</b><br>[^<]*tightest", text)
+
+
+def test_pictures_stay_as_they_are_while_something_is_pulled(bench: Bench) -> None:
+    state = state_of(taught())
+    bench.draw(replace(state, shapes=shapes_of(state.model)))
+    before = bench.client.text()
+    other = state_of(taught(3))
+    bench.draw(replace(other, shapes=shapes_of(other.model), dragging="/demonstrations/0"))
+
+    assert pictures(before) == pictures(bench.client.text()) != []
+
+
+def test_an_empty_skill_has_no_pictures_and_can_choose_a_kind_all_the_same(bench: Bench) -> None:
+    full = state_of(taught())
+    state = bench.draw(replace(state_of(taught(0)), shapes=shapes_of(full.model)))
+    bench.client.press("Circle")
+
+    assert "tightest" not in bench.client.text()
+    assert bench.edited(state.document).settings.section == "circle"
 
 
 def test_alignment_and_number_of_slices_are_settings(bench: Bench) -> None:

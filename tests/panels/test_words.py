@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 from app import edits
+from app.document import Document, Shown
 from app.panels import words
 from app.panels.lesson import first_minute, page, tried
 from app.panels.status import status
 from app.store import Hand
+from gc_core import Demonstration
 from tests.panels.desk import state_of, taught
 
 
@@ -20,6 +22,14 @@ from tests.panels.desk import state_of, taught
 )
 def test_lengths_are_said_in_centimetres(length: float, said: str) -> None:
     assert words.cm(length) == said
+
+
+@pytest.mark.parametrize(
+    ("size", "said"),
+    [(8.6e-3, "8.6 l"), (0.0149, "14.9 l"), (4.2e-4, "0.42 l"), (8.4e-5, "84 cm³"), (2.5e-6, "2.5 cm³")],
+)
+def test_volumes_are_said_in_litres_and_small_ones_in_cubic_centimetres(size: float, said: str) -> None:
+    assert words.volume(size) == said
 
 
 @pytest.mark.parametrize(
@@ -96,3 +106,34 @@ def test_every_step_of_the_lesson_can_be_ticked_off() -> None:
     assert steps == {"start", "goal", "demonstrate", "pull", "undo"}
     assert page(lesson, "", frozenset(steps)).count("&#10003;") == len(steps)
     assert page(lesson, "", frozenset()).count("&#10003;") == 0
+
+
+def drawn(count: int, depth: float) -> Document:
+    """Demonstrations of half a metre, 10 cm apart at first, and so far out of one plane [m]."""
+    share = np.linspace(0.0, 1.0, 60)
+    shown: list[Shown] = []
+    for number in range(count):
+        turn = 2.0 * np.pi * number / count
+        across, out = 0.05 * np.cos(turn) * (1.0 - 0.5 * share), depth * np.sin(turn) * (1.0 - 0.5 * share)
+        height = 0.3 + across + 0.1 * np.sin(np.pi * share)
+        shown.append(Shown(Demonstration(4.0 * share, np.stack([0.5 * share, -0.4 + out, height], axis=1))))
+    return Document("Drawn", demonstrations=tuple(shown))
+
+
+def test_a_tube_drawn_in_one_plane_is_called_flat_and_one_is_told_what_to_do() -> None:
+    flat, deep = (status(state_of(drawn(4, depth))) for depth in (0.0005, 0.05))
+
+    assert "hold Shift" in flat
+    assert "hold Shift" not in deep
+
+
+def test_one_flat_demonstration_is_no_flat_tube() -> None:
+    assert "hold Shift" not in status(state_of(drawn(1, 0.0)))
+
+
+def test_what_happened_is_said_before_the_flatness_and_a_warning_stands_alone() -> None:
+    said = status(state_of(drawn(3, 0.0), message="That was a demonstration."))
+    warned = status(state_of(drawn(3, 0.0), message="The arm cannot follow.", warning=True))
+
+    assert said.index("That was") < said.index("hold Shift")
+    assert "hold Shift" not in warned

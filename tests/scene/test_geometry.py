@@ -85,6 +85,12 @@ def test_a_torus_is_closed_and_looks_outward() -> None:
     assert volume(vertices, faces) == pytest.approx(2.0 * np.pi**2 * 0.05 * 0.005**2, rel=0.15)
 
 
+def test_bodies_put_together_keep_their_volumes() -> None:
+    small, large = g.torus(0.02, 0.006), g.torus(0.05, 0.01)
+
+    assert volume(*g.together(small, large)) == pytest.approx(volume(*small) + volume(*large))
+
+
 @pytest.mark.parametrize("height", [0.4, -0.1])
 def test_a_stem_reaches_from_the_landmark_to_the_table(height: float) -> None:
     vertices, faces = g.stem(height, 0.004)
