@@ -200,8 +200,8 @@ def _ratios_of(
     sweep: Sweep, stretch: _Stretch, coordinates: FloatArray, rows: IntArray, columns: IntArray
 ) -> FloatArray:
     """Ratios (E,) of some of the coordinates (3, S, K) in the planes of their stations."""
-    away = coordinates[:, rows, columns] - stretch.centres[:, columns]
-    x, y = np.einsum("ce,cie->ie", away, stretch.axes[:, :, columns])
+    away = coordinates - stretch.centres[:, None]
+    x, y = (np.einsum("csk,ck->sk", away, stretch.axes[:, axis])[rows, columns] for axis in range(2))
     return ratios_in_plane(sweep, int(stretch.stations[0]) + columns, x, y)
 
 
