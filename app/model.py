@@ -27,8 +27,6 @@ from gc_core import (
     reproduce,
 )
 
-ANGLES: Final = 64
-"""Corners of a cross-section."""
 COARSE_ANGLES: Final = 32
 """Corners of a cross-section while something is dragged; more are not drawn then."""
 BEGINNING: Final = 0.1
@@ -80,7 +78,9 @@ class Model:
     """The rules that are on."""
     runs: tuple[Run, ...] = ()
     coarse: bool = False
-    """Encoded for a preview, with `COARSE_ANGLES`."""
+    """Encoded for a preview: with `COARSE_ANGLES`, crossing sections not mended."""
+    hasty: bool = False
+    """Bent for a preview: crossing sections not mended."""
     problem: str | None = None
     """Why there is no cylinder although something was shown."""
 
@@ -118,7 +118,7 @@ def learn(document: Document, previous: Model | None = None, *, coarse: bool = F
     try:
         model = _encode(model, former)
         model = replace(model, anchors=_anchors(model))
-        model = _generalize(model, former)
+        model = _generalize(model, former, coarse=coarse)
         return _reproduce(model, former)
     except GcError as error:
         return replace(model, problem=str(error))
@@ -131,28 +131,33 @@ def _encode(model: Model, former: Model) -> Model:
     unchanged = _same(model.demonstrations, former.demonstrations) and settings == former.source.settings
     if unchanged and former.taught is not None and (model.coarse or not former.coarse):
         return replace(model, taught=former.taught, coarse=former.coarse)
-    angles = COARSE_ANGLES if model.coarse else ANGLES
-    return replace(model, taught=encode_as(model.demonstrations, settings, angles))
+    return replace(model, taught=encode_as(model.demonstrations, settings, coarse=model.coarse))
 
 
 def encode_as(
-    demonstrations: tuple[Demonstration, ...], settings: Settings, angles: int = ANGLES
+    demonstrations: tuple[Demonstration, ...], settings: Settings, *, coarse: bool = False
 ) -> GeneralizedCylinder:
-    """Encode demonstrations by a document's settings."""
+    """Encode demonstrations by a document's settings; coarsely for a preview."""
     return encode(
         demonstrations,
         section=settings.section,
         stations=settings.stations,
-        angles=angles,
+        angles=COARSE_ANGLES if coarse else None,
         align_by=settings.align_by,
+        repair=not coarse,
     )
 
 
-def _generalize(model: Model, former: Model) -> Model:
+def _generalize(model: Model, former: Model, *, coarse: bool) -> Model:
     anchors = model.anchors
-    if model.taught is former.taught and _same_anchors(anchors, former.anchors) and not former.problem:
+    unchanged = model.taught is former.taught and _same_anchors(anchors, former.anchors)
+    if unchanged and not former.problem and (coarse or not former.hasty):
         return replace(
-            model, anchors=former.anchors, registration=former.registration, cylinder=former.cylinder
+            model,
+            anchors=former.anchors,
+            registration=former.registration,
+            cylinder=former.cylinder,
+            hasty=former.hasty,
         )
     if model.taught is None or all(anchor.now is anchor.taught for anchor in anchors):
         return replace(model, cylinder=model.taught)
@@ -160,8 +165,8 @@ def _generalize(model: Model, former: Model) -> Model:
         [Landmark(anchor.taught, name=anchor.name) for anchor in anchors],
         [Landmark(anchor.now, name=anchor.name) for anchor in anchors],
     )
-    cylinder = generalize(model.taught, registration)
-    return replace(model, registration=registration, cylinder=cylinder)
+    cylinder = generalize(model.taught, registration, repair=not coarse)
+    return replace(model, registration=registration, cylinder=cylinder, hasty=coarse)
 
 
 def _anchors(model: Model) -> tuple[Anchor, ...]:

@@ -23,7 +23,7 @@ ON_PLANE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class _Lines:
+class Lines:
     """All n demonstrations, one behind the other in one array: one search for all costs least."""
 
     path: FloatArray
@@ -40,11 +40,11 @@ class _Lines:
     """(n,) of the demonstrations [m]."""
     wanted: FloatArray
     """(n, N) length along a demonstration up to the place that corresponds to a station [m]."""
+    directrix: FloatArray
+    """(N, 3) the planes go through it [m]."""
 
 
-def effective_points(
-    demonstrations: tuple[Trimmed, ...], alignment: Alignment, normals: FloatArray
-) -> tuple[FloatArray, BoolArray]:
+def effective_points(lines: Lines, normals: FloatArray) -> tuple[FloatArray, BoolArray]:
     """Cut every demonstration with every section plane.
 
     Among the crossings in the direction of travel, the one nearest in arc length to the place that
@@ -55,9 +55,8 @@ def effective_points(
 
     Parameters
     ----------
-    demonstrations : tuple of n Trimmed
-    alignment : Alignment
-        Of these demonstrations at N stations; the planes go through its directrix.
+    lines : Lines
+        Of n demonstrations, to be cut at N stations.
     normals : (N, 3) array
         Unit normals of the planes [-].
 
@@ -68,10 +67,10 @@ def effective_points(
     missed : (N, n) array of bool
         Where a demonstration does not cross the plane near its station.
     """
-    offsets = np.einsum("ij,ij->i", alignment.directrix, normals)
-    lines = _lines(demonstrations, alignment)
-    points, away = _ends(lines, normals, offsets)
-    station, knot = _nearest_crossings(lines, normals, offsets, away)
+    offsets = np.einsum("ij,ij->i", lines.directrix, normals)
+    behind = normals @ lines.path[lines.knots].T <= offsets[:, None]
+    points, away = _ends(lines, behind)
+    station, knot = _nearest_crossings(lines, behind, away)
     whose = lines.owner[knot]
     low, high = lines.knots[knot], lines.knots[knot + 1]
     points[station, whose] = _refined(lines.path, low, high, normals[station], offsets[station])
@@ -87,7 +86,19 @@ def effective_points(
     return points - height[..., None] * normals[:, None, :], missed
 
 
-def _lines(demonstrations: tuple[Trimmed, ...], alignment: Alignment) -> _Lines:
+def lines_of(demonstrations: tuple[Trimmed, ...], alignment: Alignment) -> Lines:
+    """Lay out demonstrations for a search of their crossings.
+
+    Parameters
+    ----------
+    demonstrations : tuple of n Trimmed
+    alignment : Alignment
+        Of these demonstrations at N stations; the planes will go through its directrix.
+
+    Returns
+    -------
+    Lines
+    """
     counts = np.array([len(demonstration.positions) for demonstration in demonstrations])
     begins = np.cumsum(counts) - counts
     chosen: list[IntArray] = []
@@ -101,7 +112,7 @@ def _lines(demonstrations: tuple[Trimmed, ...], alignment: Alignment) -> _Lines:
         sample = interpolated(moments, demonstration.times, np.arange(last + 1, dtype=np.float64))
         wanted.append(interpolated(sample, knots.astype(np.float64), gone[-1]))
     owner = np.repeat(np.arange(len(counts)), [len(knots) for knots in chosen])
-    return _Lines(
+    return Lines(
         path=np.concatenate([demonstration.positions for demonstration in demonstrations]),
         ends=np.stack((begins, begins + counts - 1), axis=1),
         knots=np.concatenate(chosen) + begins[owner],
@@ -109,28 +120,27 @@ def _lines(demonstrations: tuple[Trimmed, ...], alignment: Alignment) -> _Lines:
         gone=np.concatenate(gone),
         lengths=np.array([length[-1] for length in gone]),
         wanted=np.array(wanted),
+        directrix=alignment.directrix,
     )
 
 
-def _ends(lines: _Lines, normals: FloatArray, offsets: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _ends(lines: Lines, behind: BoolArray) -> tuple[FloatArray, FloatArray]:
     """End (N, n, 3) that lies on the wrong side of a plane, and its distance (N, n) along the demonstration.
 
-    The distance is from the place that corresponds, infinite where no end is on the wrong side.
+    The distance is from the place that corresponds, infinite where no end is on the wrong side. `behind`
+    (N, K) tells which knots lie behind which plane; the ends are knots, and are judged as crossings are.
     """
-    first, last = lines.path[lines.ends[:, 0]], lines.path[lines.ends[:, 1]]
-    late = normals @ first.T > offsets[:, None]
-    early = normals @ last.T <= offsets[:, None]
+    begins = np.flatnonzero(np.diff(lines.owner, prepend=-1))
+    late, early = ~behind[:, begins], behind[:, np.append(begins[1:], len(lines.owner)) - 1]
     from_first = np.where(late, lines.wanted.T, np.inf)
     from_last = np.where(early, lines.lengths - lines.wanted.T, np.inf)
+    first, last = lines.path[lines.ends[:, 0]], lines.path[lines.ends[:, 1]]
     points = np.where((from_first <= from_last)[..., None], first, last)
     return points, np.minimum(from_first, from_last)
 
 
-def _nearest_crossings(
-    lines: _Lines, normals: FloatArray, offsets: FloatArray, nearer_than: FloatArray
-) -> tuple[IntArray, IntArray]:
+def _nearest_crossings(lines: Lines, behind: BoolArray, nearer_than: FloatArray) -> tuple[IntArray, IntArray]:
     """Stations (C,) and the knots before a crossing (C,): at most one for each demonstration and station."""
-    behind = normals @ lines.path[lines.knots].T <= offsets[:, None]
     forward = behind[:, :-1] > behind[:, 1:]
     forward[:, np.flatnonzero(np.diff(lines.owner))] = False
     station, knot = np.divmod(np.flatnonzero(forward), forward.shape[1])
@@ -146,7 +156,7 @@ def _nearest_crossings(
 
 
 def _nearest_approach(
-    lines: _Lines, j: int, rows: IntArray, normals: FloatArray, offsets: FloatArray
+    lines: Lines, j: int, rows: IntArray, normals: FloatArray, offsets: FloatArray
 ) -> FloatArray:
     """Knot (K, 3) of demonstration j that comes nearest to the planes `rows` (K,) within the search."""
     mine = lines.owner == j

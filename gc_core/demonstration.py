@@ -141,7 +141,7 @@ def trim(demonstration: Demonstration, threshold: float = STATIONARY_SPEED) -> T
         moving = np.array([0, len(times) - 1])
     nearby = STATIONARY_REACH * _extent(positions)
     first = _last_nearby(positions[: int(moving[0]) + 1], nearby)
-    last = len(times) - 1 - _last_nearby(positions[: int(moving[-1]) - 1 : -1], nearby)
+    last = len(times) - 1 - _last_nearby(positions[int(moving[-1]) :][::-1], nearby)
     if first == last:
         first, last = max(first - 1, 0), min(last + 1, len(times) - 1)
     return _joined(demonstration, first, last, limit)

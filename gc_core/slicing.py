@@ -8,7 +8,7 @@ import numpy as np
 
 from gc_core.alignment import Alignment
 from gc_core.arrays import BoolArray, FloatArray
-from gc_core.crossings import effective_points
+from gc_core.crossings import Lines, effective_points, lines_of
 from gc_core.demonstration import Trimmed
 from gc_core.frames import arc_length, rotation_minimizing_frames, tangents
 from gc_core.radius import vertex_angles
@@ -65,7 +65,8 @@ def slices_of(trimmed: tuple[Trimmed, ...], alignment: Alignment, settings: Sett
     """
     along = tangents(alignment.directrix)
     first = _first_normal(alignment, along[0])
-    slices = _cut(trimmed, alignment, along, first, settings)
+    lines = lines_of(trimmed, alignment)
+    slices = _cut(lines, along, first, settings)
     if not settings.repair or not crossing_stations(slices.surface, along).any():
         return slices
     coarse = replace(settings, angles=min(settings.angles, REPAIR_ANGLES))
@@ -73,25 +74,20 @@ def slices_of(trimmed: tuple[Trimmed, ...], alignment: Alignment, settings: Sett
         alignment.directrix,
         along,
         slices.surface,
-        lambda normals: _cut(trimmed, alignment, normals, first, coarse).surface,
+        lambda normals: _cut(lines, normals, first, coarse).surface,
     )
-    return slices if normals is along else _cut(trimmed, alignment, normals, first, settings)
+    return slices if normals is along else _cut(lines, normals, first, settings)
 
 
-def _cut(
-    trimmed: tuple[Trimmed, ...],
-    alignment: Alignment,
-    normals: FloatArray,
-    first: FloatArray,
-    settings: Settings,
-) -> Slices:
-    """Cut the demonstrations by planes with the given normals (N, 3); the first N axis is near `first`."""
-    frames = rotation_minimizing_frames(alignment.directrix, normals, first)
-    points, missed = effective_points(trimmed, alignment, normals)
-    local = (points - alignment.directrix[:, None]) @ frames[:, :, 1:]
+def _cut(lines: Lines, normals: FloatArray, first: FloatArray, settings: Settings) -> Slices:
+    """Cut demonstrations by planes with the given normals (N, 3); the first N axis is near `first`."""
+    directrix = lines.directrix
+    frames = rotation_minimizing_frames(directrix, normals, first)
+    points, missed = effective_points(lines, normals)
+    local = (points - directrix[:, None]) @ frames[:, :, 1:]
     radii = section_radii(local, settings.section, settings.angles, settings.half_width)
-    radii = gently_changing(alignment.directrix, frames, radii)
-    surface = section_surface(alignment.directrix, frames, vertex_angles(settings.angles), radii)
+    radii = gently_changing(directrix, frames, radii)
+    surface = section_surface(directrix, frames, vertex_angles(settings.angles), radii)
     return Slices(frames, points, missed, radii, surface)
 
 

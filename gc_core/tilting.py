@@ -17,10 +17,10 @@ from scipy.linalg import (  # pyright: ignore[reportMissingTypeStubs] - SciPy ha
 from gc_core.arrays import FloatArray
 from gc_core.surface import crossing_stations
 
-ROUNDS = 5
+ROUNDS = 4
 """Times the sections are cut anew at most."""
 
-DAMPING = 0.6
+DAMPING = 0.7
 """Part of the way to the smoothed normals that one round goes [-]."""
 
 STEPS = 15
@@ -35,8 +35,11 @@ CLEAR = 0.98
 SPREAD = 2
 """Stations to either side that share in the smoothing of one."""
 
-STRONGEST = 0.25
+STRONGEST = 0.1
 """Normals are smoothed over at most about this part of the stations [-]."""
+
+MOST = np.radians(100.0)
+"""A plane is tilted by at most this much; beyond a right angle only where the directrix turns back [rad]."""
 
 CORNERS = 16
 """Vertices of a section by which its reach is judged within a round."""
@@ -78,7 +81,7 @@ def tilted_normals(
         if not fewest or _turn_ratios(directrix, normals, surface - directrix[:, None]).max() < CLEAR:
             break
         smoothed, weights = _smoothed(directrix, wanted, normals, reach, weights)
-        normals = _unit(normals + DAMPING * (smoothed - normals))
+        normals = _near(wanted, _unit(normals + DAMPING * (smoothed - normals)))
         surface = cut(normals)
         crossing = int(crossing_stations(surface, normals).sum())
         if crossing < fewest:
@@ -124,6 +127,15 @@ def _least_bent(wanted: FloatArray, weights: FloatArray) -> FloatArray:
     bands[1, 1:] += weights
     bands[0, 1:] = -weights
     return _unit(np.asarray(solveh_banded(bands, wanted, check_finite=False), dtype=np.float64))
+
+
+def _near(wanted: FloatArray, normals: FloatArray) -> FloatArray:
+    """Turn unit normals (N, 3) back to within `MOST` of those wanted."""
+    cosine = np.einsum("ij,ij->i", normals, wanted)[:, None]
+    aside = normals - cosine * wanted
+    size = np.sqrt(np.einsum("ij,ij->i", aside, aside))[:, None]
+    limit = np.cos(MOST) * wanted + np.sin(MOST) * aside / np.maximum(size, np.finfo(float).tiny)
+    return np.where(cosine < np.cos(MOST), limit, normals)
 
 
 def _unit(vectors: FloatArray) -> FloatArray:
