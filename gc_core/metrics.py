@@ -1,8 +1,7 @@
 """Numbers that say how good a tube, a run or a map is.
 
 Dynamic time warping is a library's. The Fréchet distance is our own: the permissive library that has it
-in space (similaritymeasures 1.5) agrees to the last digit but takes five times as long; jerk on uneven
-times is in none.
+in space (similaritymeasures 1.5) agrees to the last digit but takes five times as long.
 """
 
 from __future__ import annotations
@@ -18,13 +17,40 @@ from gc_core.warping import least_sum
 
 
 def containment(cylinder: GeneralizedCylinder, points: FloatArray) -> float:
-    """Share of points (P, 3) [m] inside a cylinder, from 0 to 1 [-]; 1 when there are none."""
+    """Tell how many of some points a cylinder holds.
+
+    Parameters
+    ----------
+    cylinder : GeneralizedCylinder
+    points : (P, 3) array
+        Any places [m].
+
+    Returns
+    -------
+    float
+        Share of those inside or on the boundary, from 0 to 1; 1 when there are none [-].
+
+    Raises
+    ------
+    ShapeError, NotFiniteError
+        If the points are not finite places.
+    """
     inside = cylinder.contains(points)
     return float(inside.mean()) if inside.size else 1.0
 
 
 def volume(cylinder: GeneralizedCylinder) -> float:
-    """Volume of a cylinder [m^3]."""
+    """Volume of a cylinder.
+
+    Parameters
+    ----------
+    cylinder : GeneralizedCylinder
+
+    Returns
+    -------
+    float
+        `GeneralizedCylinder.volume` [m^3].
+    """
     return cylinder.volume
 
 
@@ -135,12 +161,47 @@ def jerk(positions: FloatArray, times: FloatArray) -> float:
 
 
 def end_error(positions: FloatArray, goal: FloatArray) -> float:
-    """Distance of the last sample of a path (K, 3) from a goal (3,) [m]."""
+    """Distance of the end of a path from a goal.
+
+    Parameters
+    ----------
+    positions : (K, 3) array
+        Path, K >= 1 [m].
+    goal : (3,) array
+        [m].
+
+    Returns
+    -------
+    float
+        [m].
+
+    Raises
+    ------
+    ShapeError, NotFiniteError, TooFewSamplesError
+        If they are no path and no finite place.
+    """
     return float(np.linalg.norm(_path(positions, "positions")[-1] - finite(goal, "goal", (3,))))
 
 
 def det_jacobian(registration: ThinPlateSpline, points: FloatArray) -> FloatArray:
-    """Change of volume by a map at points (P, 3) [m]: (P,) array, 0 or less where space folds [-]."""
+    """Change of volume by a map.
+
+    Parameters
+    ----------
+    registration : ThinPlateSpline
+    points : (P, 3) array
+        Where to look [m].
+
+    Returns
+    -------
+    (P,) array
+        Determinant of the Jacobian: 1 keeps volumes, 0 or less folds space [-].
+
+    Raises
+    ------
+    ShapeError, NotFiniteError
+        If the points are not finite places.
+    """
     return np.linalg.det(registration.jacobian(finite(points, "points", (None, 3))))
 
 

@@ -63,7 +63,10 @@ def tab(server: Server, code: str) -> Iterator[FakeClient]:
 
 
 def picture(client: FakeClient) -> Picture:
-    """What a tab shows of the document: the pose and the geometry of all that is visible."""
+    """What a tab shows of the document: the place and the geometry of all that is visible.
+
+    To the micrometre: the last bit of a product depends on where its arrays lie in memory.
+    """
     nodes = client.nodes
 
     def visible(name: str) -> bool:
@@ -74,8 +77,8 @@ def picture(client: FakeClient) -> Picture:
     shown: Picture = {}
     for name, node in nodes.items():
         if name.split("/")[1] in WORK and visible(name):
-            arrays = [np.asarray(node.props.get(prop, ())).tobytes() for prop in ("points", "vertices")]
-            shown[name] = (node.position, *arrays)
+            arrays = [node.props.get(prop, ()) for prop in ("points", "vertices")]
+            shown[name] = (tuple(np.round(node.position, 6)), *(np.round(a, 6).tobytes() for a in arrays))
     return shown
 
 

@@ -288,6 +288,7 @@ def test_a_tab_that_takes_over_and_back_is_followed_by_one_camera(server: Server
 def test_looking_alone_saves_nothing(tmp_path: Path) -> None:
     library, code = library_in(tmp_path), "only-looked-0001"
     with serving(library) as server, tab(server, code) as client:
+        client.wait(lambda c: any("Pause" in e.props.get("options", ()) for e in c.gui))
         client.press("Pause")
         client.wait(lambda c: any("Play" in e.props.get("options", ()) for e in c.gui))
 

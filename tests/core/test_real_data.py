@@ -17,7 +17,7 @@ from gc_core.radius import GREATEST_SLOPE
 from gc_core.sections import SECTIONS
 from tests.helpers_data import ALL_SETS, POSE_SETS, load
 from tests.measurements import geometry, runs
-from tests.measurements.sections import STATIONS, TIGHT, TIGHT_ANGLES, Measured, measure
+from tests.measurements.sections import CUTTING, STATIONS, TIGHT, TIGHT_ANGLES, Measured, measure
 
 every_set = pytest.mark.parametrize("name", ALL_SETS)
 every_section = pytest.mark.parametrize("section", sorted(SECTIONS))
@@ -165,3 +165,12 @@ def test_the_lab_s_stationary_ends_are_cut() -> None:
 
     assert (diagnostics.trimmed_end > 1.0).all()
     assert (diagnostics.trimmed_end < 6.0).all()
+
+
+@every_set
+@every_section
+@every_alignment
+def test_few_stations_cut_a_neighbour(name: str, section: str, align_by: str) -> None:
+    found = measured(name, section, align_by)
+
+    assert max(found.cutting, found.overlapping) <= CUTTING * STATIONS

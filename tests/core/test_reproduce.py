@@ -194,8 +194,9 @@ def test_what_cannot_be_run_is_refused(error: type[Exception], start: list[float
 
 
 @settings(max_examples=30, deadline=None)
-@given(seed=seeds, ratio=st.floats(0.0, 1.0), angle=st.floats(-4.0, 4.0), back=st.floats(0.0, 1.0))
+@given(seed=seeds, ratio=st.floats(0.0, 0.98), angle=st.floats(-4.0, 4.0), back=st.floats(0.0, 1.0))
 def test_a_run_from_the_last_slice_stays_there(seed: int, ratio: float, angle: float, back: float) -> None:
+    # Not up to 1: the boundary between two stations is not quite the chord that the start is taken from.
     cylinder = encode(bundle(seed), stations=60)
     earlier, last = (start_at(cylinder, ratio, angle, station) for station in (58, 59))
     run = reproduce(cylinder, last + back * (earlier - last))
