@@ -49,6 +49,8 @@ def make(recipe: Recipe, arm: Arm) -> Made:
         goal=recipe.goal,
         starts=_starts(recipe, demonstrations),
         law=recipe.law,
+        new_goals=recipe.new_goals,
+        new_starts=recipe.new_starts,
     )
     return Made(demonstrations, card)
 
@@ -69,7 +71,7 @@ def _performed(arm: Arm, shown: Demonstration) -> Demonstration:
             f"{shown.times[worst]:.1f} s. Move the waypoints of the recipe into its reach."
         )
     hand = np.array([arm.tool_pose(joints)[:3, 3] for joints in path.joints])
-    return Demonstration(shown.times, np.round(hand, DECIMALS), name=shown.name)
+    return Demonstration(shown.times, np.round(hand, DECIMALS), gripper=shown.gripper, name=shown.name)
 
 
 def _starts(

@@ -43,6 +43,8 @@ class Plan:
     """How much of the slowness comes from narrowness, 0..1; at 1 speed is proportional to the half-width."""
     rate: float = 50.0
     """Samples a second [Hz]."""
+    grip: tuple[float, float] | None = None
+    """About which parts of the way the hand closes and opens, 0..1; None if it holds nothing."""
 
 
 def demonstrate(plan: Plan) -> tuple[Demonstration, ...]:
@@ -51,7 +53,7 @@ def demonstrate(plan: Plan) -> tuple[Demonstration, ...]:
     Returns
     -------
     tuple of Demonstration
-        Around the middle path, at evenly spread sides of it; positions in metres.
+        Around the middle path, at evenly spread sides of it; positions in metres, gripper 0 open, 1 closed.
     """
     rng = np.random.default_rng(plan.seed)
     path = middle_path(plan.waypoints)
@@ -147,7 +149,15 @@ def _one(plan: Plan, path: FloatArray, side: float, name: str, rng: np.random.Ge
     line = path + _offset(plan, path, side, rng)
     along = np.linspace(0.0, 1.0, len(path))
     positions = _spline(along, line, way)
-    return Demonstration(times=np.arange(len(way)) / plan.rate, positions=positions, name=name)
+    gripper = None if plan.grip is None else _gripper(way, plan.grip, rng)
+    return Demonstration(np.arange(len(way)) / plan.rate, positions, gripper=gripper, name=name)
+
+
+def _gripper(way: FloatArray, grip: tuple[float, float], rng: np.random.Generator) -> FloatArray:
+    """Whether the hand is closed at parts of the way (T,): some close and open it sooner, some later."""
+    closes = grip[0] * rng.uniform(0.7, 1.3)
+    opens = 1.0 - (1.0 - grip[1]) * rng.uniform(0.7, 1.3)
+    return ((way >= closes) & (way < opens)).astype(np.float64)
 
 
 def _offset(plan: Plan, path: FloatArray, side: float, rng: np.random.Generator) -> FloatArray:

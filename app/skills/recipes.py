@@ -26,11 +26,20 @@ class Recipe:
     starts: tuple[tuple[float, float], ...]
     """Of its reproductions: (ratio eta, direction in the first section [rad])."""
     law: Mapping[str, float]
-    """What the skill must show; the tests read it from the skill's file. In metres: how far from the
+    """What the skill must show; the tests read it from the skill's file, and ask it of the tube that was
+    taught and after each move to `new_goals` and `new_starts`. In metres: how far from the
     goal demonstrations and reproductions end at most; how wide the tube is, at least near its
-    beginning and at most at its end. As a part of the narrower end: how wide it is at most half of
-    the way along. Width is the mean over all directions of the distance from boundary to boundary
-    through the middle line: twice the mean radius of the slice."""
+    beginning and at most at its end; how far from the start the hand closes and from the goal it opens
+    at most. As a part of the narrower end: how wide it is at most half of
+    the way along; as a part of the width there: how wide the ends are at most. Width is the mean over all
+    directions of the distance from boundary to boundary through the middle line: twice the mean radius of
+    the slice. As a part of the distance from start to goal: how far the middle line bows out at least
+    (`bow`), and how far it may lie at most from the one that was taught, turned and scaled from the old
+    start and goal to the new ones (`shape_change`)."""
+    new_goals: tuple[tuple[float, float, float], ...] = ()
+    """Where the goal is moved to, one after the other [m]."""
+    new_starts: tuple[tuple[float, float, float], ...] = ()
+    """Where the start is moved to, one after the other [m]."""
 
 
 _BALL: Final = (-0.11, -0.60, 0.06)
@@ -76,4 +85,52 @@ NEEDLE: Final = Recipe(
     law={"middle_to_ends": 0.25, "middle_m": 0.03},
 )
 
-RECIPES: Final = (REACHING, NEEDLE)
+_SHELF: Final = (-0.30, -0.42, 0.07)
+
+CURVED: Final = Recipe(
+    name="curved_reach_and_place",
+    title="Curved reach and place",
+    about="This robot was shown five times how to go round in a wide curve and put something down. Move the "
+    "goal, and it keeps the curve.",
+    plan=Plan(
+        waypoints=((0.36, -0.24, 0.25), (0.33, -0.47, 0.33), (0.08, -0.64, 0.36), (-0.2, -0.6, 0.24), _SHELF),
+        spread=((0.0, 0.055), (0.35, 0.06), (0.7, 0.04), (0.92, 0.016), (1.0, 0.012)),
+        seed=3,
+    ),
+    section="closed_spline",
+    goal=_SHELF,
+    starts=((0.65, 0.9), (0.6, 3.6)),
+    law={"demonstration_end_m": 0.02, "reproduction_end_m": 0.02, "bow": 0.4, "shape_change": 0.2},
+    new_goals=((-0.40, -0.27, 0.07), (-0.14, -0.36, 0.07), (-0.36, -0.52, 0.20)),
+)
+
+_PUT_DOWN: Final = (-0.28, -0.48, 0.06)
+
+PICK: Final = Recipe(
+    name="pick_and_place",
+    title="Pick and place",
+    about="This robot was shown five times how to pick something up and put it down: exact where the hand "
+    "closes and opens, free in between.",
+    plan=Plan(
+        waypoints=(
+            (0.36, -0.32, 0.06),
+            (0.32, -0.37, 0.24),
+            (0.06, -0.50, 0.38),
+            (-0.20, -0.51, 0.26),
+            _PUT_DOWN,
+        ),
+        spread=((0.0, 0.01), (0.06, 0.012), (0.5, 0.075), (0.94, 0.012), (1.0, 0.01)),
+        seed=3,
+        seconds=(5.0, 6.2),
+        unevenness=0.08,
+        care=0.12,
+        grip=(0.012, 0.988),
+    ),
+    section="closed_spline",
+    goal=_PUT_DOWN,
+    starts=((0.7, 0.6), (0.7, 3.8)),
+    law={"ends_to_middle": 0.25, "grip_m": 0.03, "reproduction_end_m": 0.02},
+    new_starts=((0.46, -0.22, 0.06), (0.24, -0.46, 0.06), (0.46, -0.44, 0.06), (0.24, -0.24, 0.16)),
+)
+
+RECIPES: Final = (REACHING, NEEDLE, CURVED, PICK)

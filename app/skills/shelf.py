@@ -31,6 +31,10 @@ class Card:
     """Where its reproductions begin [m]."""
     law: Mapping[str, float]
     """Thresholds that the skill must keep; see `app.skills.recipes`."""
+    new_goals: tuple[tuple[float, float, float], ...] = ()
+    """Where to move the goal to, one after the other, to see the law kept [m]."""
+    new_starts: tuple[tuple[float, float, float], ...] = ()
+    """Where to move the start to, one after the other [m]."""
 
 
 def skill_names(folder: Path) -> tuple[str, ...]:
@@ -92,6 +96,10 @@ def format_card(card: Card) -> str:
         "[law]",
         *(f"{name} = {value:g}" for name, value in card.law.items()),
     ]
+    moves = (("goals", card.new_goals), ("starts", card.new_starts))
+    tries = [f"{what} = [{', '.join(map(_numbers, places))}]" for what, places in moves if places]
+    if tries:
+        lines += ["", "[try]  # where landmarks can be moved to, one after the other [m]", *tries]
     return "\n".join(lines) + "\n"
 
 
@@ -108,6 +116,7 @@ def _card(table: Mapping[str, Any]) -> Card:
     section = str(table["section"])
     if section not in SECTION_KINDS:
         raise ValueError(f"section is {section!r} and not one of {', '.join(SECTION_KINDS)}")
+    tries: Mapping[str, Any] = table.get("try", {})
     return Card(
         title=str(table["title"]),
         about=str(table["about"]),
@@ -115,6 +124,8 @@ def _card(table: Mapping[str, Any]) -> Card:
         goal=_triple(table["goal"]),
         starts=tuple(_triple(start) for start in table["starts"]),
         law={str(key): float(value) for key, value in table["law"].items()},
+        new_goals=tuple(_triple(place) for place in tries.get("goals", ())),
+        new_starts=tuple(_triple(place) for place in tries.get("starts", ())),
     )
 
 

@@ -230,7 +230,14 @@ def test_a_recipe_out_of_reach_is_refused(arm: Jaco) -> None:
 
 def test_any_words_survive_on_a_card(tmp_path: Path) -> None:
     card = Card(
-        'Say "ball"', "back\\slash, ümlaut.", "circle", (0.1, -0.5, 0.0), ((1.0, 2.0, 3.0),), {"far_m": 0.25}
+        'Say "ball"',
+        "back\\slash, ümlaut.",
+        "circle",
+        (0.1, -0.5, 0.0),
+        ((1.0, 2.0, 3.0),),
+        {"far_m": 0.25},
+        new_goals=((0.2, -0.5, 0.1), (0.3, -0.5, 0.1)),
+        new_starts=((0.4, -0.5, 0.1),),
     )
     (tmp_path / "a.toml").write_text(format_card(card), encoding="utf-8")
     (tmp_path / "a.csv").touch()
