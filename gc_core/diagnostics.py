@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from gc_core.arrays import BoolArray, FloatArray, IntArray, read_only_fields
 
 
@@ -60,11 +62,19 @@ class Diagnostics:
                 f"{self.minimum_half_width * 200.0:.3g} cm wide everywhere. "
                 "Show the motion again to tell where it may vary."
             )
+        tilted = self.tilt > np.radians(1.0)
         for count, words in (
             (self.missed.any(axis=1).sum(), "slices are not reached by every demonstration"),
+            (
+                tilted.sum(),
+                f"slices are tilted, by up to {np.degrees(self.tilt.max()):.0f}\N{DEGREE SIGN}, "
+                "so as not to cut their neighbours",
+            ),
             (self.crossing.sum(), "slices cut their neighbour, where the tube is wider than its bend"),
             (self.folded.sum(), "slices are turned inside out by the moved landmarks; move them less"),
         ):
             if count:
                 said.append(f"{int(count)} of {len(self.missed)} {words}.")
+        if self.smoothed.any():
+            said.append("The middle line leaves out a small hook, where the hand went back and forth.")
         return tuple(said)
