@@ -11,7 +11,7 @@ from gc_core.arrays import BoolArray, FloatArray, IntArray, interpolated
 from gc_core.demonstration import Trimmed
 from gc_core.frames import arc_length
 
-KNOTS = 150
+KNOTS = 100
 """A demonstration is searched at this many of its samples, then refined on its polyline."""
 
 SEARCH = 0.35

@@ -21,7 +21,7 @@ SUPPORT_DIRECTIONS = 32
 TIE = 1e-9
 """Points that are as far in a direction to within this part of their distance are told apart by it [-]."""
 
-CURVE_SAMPLES = 72
+CURVE_SAMPLES = 48
 """Samples of a closed spline, shared by its pieces."""
 
 ELLIPSE_ROUNDS = 12
