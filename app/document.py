@@ -16,9 +16,11 @@ from gc_core import Constraint, Demonstration
 FloatArray: TypeAlias = NDArray[np.float64]
 SectionKind: TypeAlias = Literal["circle", "ellipse", "closed_spline"]
 Alignment: TypeAlias = Literal["time", "arc_length", "dtw"]
+LandmarkKind: TypeAlias = Literal["start", "goal", "via", "obstacle", "object"]
 
 SECTION_KINDS: Final[tuple[SectionKind, ...]] = ("circle", "ellipse", "closed_spline")
 ALIGNMENTS: Final[tuple[Alignment, ...]] = ("time", "arc_length", "dtw")
+LANDMARK_KINDS: Final[tuple[LandmarkKind, ...]] = ("start", "goal", "via", "obstacle", "object")
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +43,16 @@ class Place:
     (their beginning for ``start``)."""
     now: FloatArray | None = None
     """(3,) where it stands now [m]; None: it was not moved."""
+    kind: LandmarkKind = "via"
+    """Start and goal are a skill's ends; an object is a frame, which turns; the others are points."""
+    turn: FloatArray | None = None
+    """(3,) roll, pitch, yaw: how an object was turned since, about the base frame's x, then y, then z
+    [rad]; None: it was not turned."""
+
+    def __post_init__(self) -> None:
+        # Older skills say by its name alone what a landmark is.
+        if self.kind == "via" and self.name in {"start", "goal"}:
+            object.__setattr__(self, "kind", self.name)
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,6 +83,9 @@ class Document:
     demonstrations: tuple[Shown, ...] = ()
     settings: Settings = Settings()
     landmarks: tuple[Place, ...] = (Place("start"), Place("goal"))
+    smoothing: float = 0.0
+    """How much less the space between moved landmarks is bent, at the price of missing them: lambda of the
+    thin-plate spline; 0 meets them exactly [-]."""
     starts: tuple[FloatArray, ...] = ()
     """Where reproductions begin, each (3,) [m]."""
     rules: tuple[Rule, ...] = ()
@@ -96,3 +111,5 @@ class View:
     speed: float = 1.0
     """Playback speed as a multiple of the taught one."""
     loop: bool = True
+    placing: LandmarkKind | None = None
+    """The next click in the scene places a landmark of this kind."""

@@ -11,7 +11,8 @@ from typing import Final
 
 import numpy as np
 
-from app.document import Document, FloatArray, Settings
+from app.document import Document, FloatArray, LandmarkKind, Settings
+from app.inverse import places_before
 from gc_core import (
     Constraint,
     Demonstration,
@@ -44,6 +45,14 @@ class Anchor:
     """(3,) where it stood while the skill was taught [m]."""
     now: FloatArray
     """(3,) where it stands now [m]; the same object as ``taught`` unless it was moved."""
+    kind: LandmarkKind = "via"
+    turn: FloatArray | None = None
+    """(3,) roll, pitch, yaw since it was taught [rad]; None: it was not turned."""
+
+    @property
+    def moved(self) -> bool:
+        """Whether it stands elsewhere or is turned."""
+        return self.turn is not None or not (self.now is self.taught or np.array_equal(self.now, self.taught))
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,10 +96,44 @@ class Model:
     @property
     def start_shift(self) -> FloatArray:
         """(3,) how far the start landmark, and every start with it, was moved [m]."""
-        for anchor in self.anchors:
-            if anchor.name == "start":
-                return anchor.now - anchor.taught
-        return np.zeros(3)
+        start = self._start
+        return np.zeros(3) if start is None else start.now - start.taught
+
+    @property
+    def _start(self) -> Anchor | None:
+        return next((anchor for anchor in self.anchors if anchor.kind == "start"), None)
+
+    def carried(self, place: FloatArray) -> FloatArray:
+        """Give where a start (3,) that was placed when the skill was taught is now [m].
+
+        The start landmark takes it along; without one, the map does.
+        """
+        if self.registration is None:
+            return place
+        if self._start is not None:
+            shift = self.start_shift
+            return place + shift if np.any(shift) else place
+        return self.registration(place)
+
+    def taken_back(self, places: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Find where present places (P, 3) would be if nothing had been moved [m].
+
+        Returns
+        -------
+        taught : (P, 3) array
+            [m].
+        misses : (P,) array
+            See `app.inverse.places_before` [m].
+        """
+        if self.registration is None or self.taught is None:
+            return places, np.zeros(len(places))
+        return places_before(self.registration, places, self.taught.directrix)
+
+    def start_taken_back(self, place: FloatArray) -> FloatArray:
+        """Find where to keep a start (3,) that shall be at a place now [m]: undoes `carried`."""
+        if self.registration is None or self._start is not None:
+            return place - self.start_shift
+        return self.taken_back(place[None])[0][0]
 
 
 def learn(document: Document, previous: Model | None = None, *, coarse: bool = False) -> Model:
@@ -150,7 +193,11 @@ def encode_as(
 
 def _generalize(model: Model, former: Model, *, coarse: bool) -> Model:
     anchors = model.anchors
-    unchanged = model.taught is former.taught and _same_anchors(anchors, former.anchors)
+    unchanged = (
+        model.taught is former.taught
+        and _same_anchors(anchors, former.anchors)
+        and model.source.smoothing == former.source.smoothing
+    )
     if unchanged and not former.problem and (coarse or not former.hasty):
         return replace(
             model,
@@ -159,14 +206,34 @@ def _generalize(model: Model, former: Model, *, coarse: bool) -> Model:
             cylinder=former.cylinder,
             hasty=former.hasty,
         )
-    if model.taught is None or all(anchor.now is anchor.taught for anchor in anchors):
+    if model.taught is None or not any(anchor.moved for anchor in anchors):
         return replace(model, cylinder=model.taught)
     registration = register(
-        [Landmark(anchor.taught, name=anchor.name) for anchor in anchors],
-        [Landmark(anchor.now, name=anchor.name) for anchor in anchors],
+        [_landmark(anchor, anchor.taught, None) for anchor in anchors],
+        [_landmark(anchor, anchor.now, anchor.turn) for anchor in anchors],
+        model.source.smoothing,
     )
     cylinder = generalize(model.taught, registration, repair=not coarse)
     return replace(model, registration=registration, cylinder=cylinder, hasty=coarse)
+
+
+def _landmark(anchor: Anchor, place: FloatArray, turn: FloatArray | None) -> Landmark:
+    """Make a landmark of the core; only objects are frames."""
+    orientation = quaternion(np.zeros(3) if turn is None else turn) if anchor.kind == "object" else None
+    return Landmark(place, orientation, anchor.name)
+
+
+def quaternion(turn: FloatArray) -> FloatArray:
+    """Turn roll, pitch, yaw (3,) [rad] about the fixed x, then y, then z axis into a quaternion (4,) wxyz."""
+    (cr, cp, cy), (sr, sp, sy) = np.cos(0.5 * turn), np.sin(0.5 * turn)
+    return np.array(
+        [
+            cr * cp * cy + sr * sp * sy,
+            sr * cp * cy - cr * sp * sy,
+            cr * sp * cy + sr * cp * sy,
+            cr * cp * sy - sr * sp * cy,
+        ]
+    )
 
 
 def _anchors(model: Model) -> tuple[Anchor, ...]:
@@ -176,9 +243,10 @@ def _anchors(model: Model) -> tuple[Anchor, ...]:
         ends = {"start": model.taught.directrix[0], "goal": model.taught.directrix[-1]}
     anchors: list[Anchor] = []
     for place in model.source.landmarks:
-        taught = place.taught if place.taught is not None else ends.get(place.name)
+        taught = place.taught if place.taught is not None else ends.get(place.kind)
         if taught is not None:
-            anchors.append(Anchor(place.name, taught, place.now if place.now is not None else taught))
+            now = place.now if place.now is not None else taught
+            anchors.append(Anchor(place.name, taught, now, place.kind, place.turn))
     return tuple(anchors)
 
 
@@ -229,10 +297,7 @@ def _starts(model: Model, cylinder: GeneralizedCylinder) -> tuple[FloatArray, ..
     if not model.source.starts:
         centre, rim = cylinder.directrix[0], cylinder.surface()[0, 0]
         return (centre + DEFAULT_RATIO * (rim - centre),)
-    shift = model.start_shift
-    if not np.any(shift):
-        return model.source.starts
-    return tuple(start + shift for start in model.source.starts)
+    return tuple(map(model.carried, model.source.starts))
 
 
 def _same(one: tuple[object, ...], other: tuple[object, ...]) -> bool:
@@ -241,6 +306,10 @@ def _same(one: tuple[object, ...], other: tuple[object, ...]) -> bool:
 
 def _same_anchors(one: tuple[Anchor, ...], other: tuple[Anchor, ...]) -> bool:
     return len(one) == len(other) and all(
-        a.name == b.name and np.array_equal(a.taught, b.taught) and np.array_equal(a.now, b.now)
+        a.name == b.name
+        and a.kind == b.kind
+        and a.turn is b.turn
+        and np.array_equal(a.taught, b.taught)
+        and np.array_equal(a.now, b.now)
         for a, b in zip(one, other, strict=True)
     )

@@ -91,8 +91,8 @@ class StartRow:
 
     def _move(self, position: FloatArray) -> None:
         if self._state is not None:
-            # A start is kept where it was taught; the start landmark may have carried it along since.
-            place = position - self._state.model.start_shift
+            # A start is kept where it was taught; landmarks may have carried it along since.
+            place = self._state.model.start_taken_back(position)
             change = partial(edits.move_start, index=self._index, position=place)
             self._actions.edit(change, "move start", f"move start {self._index}")
 
@@ -112,7 +112,7 @@ def another_start(model: Model) -> FloatArray:
     angle = TURN * len(model.runs) % (2.0 * np.pi)
     corner = int(np.argmin(np.abs(cylinder.angles % (2.0 * np.pi) - angle)))
     centre, rim = cylinder.directrix[0], cylinder.surface()[0, corner]
-    return centre + SPREAD * (rim - centre) - model.start_shift
+    return model.start_taken_back(centre + SPREAD * (rim - centre))
 
 
 def where(state: State) -> str:
@@ -127,7 +127,7 @@ def where(state: State) -> str:
 
 def _starts(model: Model) -> tuple[FloatArray, ...]:
     """The document's starts, or the one that every skill has; kept where they were taught."""
-    return model.source.starts or tuple(run.start - model.start_shift for run in model.runs)
+    return model.source.starts or tuple(model.start_taken_back(run.start) for run in model.runs)
 
 
 def _added(document: Document, starts: Sequence[FloatArray], another: FloatArray) -> Document:

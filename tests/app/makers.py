@@ -55,11 +55,12 @@ def furnished() -> Document:
     """A skill with one of everything, so that every edit finds something to change."""
     document = taught()
     goal = Place("goal", now=np.array([0.60, -0.25, 0.20]))
+    cup = Place("cup", taught=np.array([0.50, 0.05, 0.30]), kind="object", turn=np.array([0.0, 0.1, 0.3]))
     return Document(
         document.title,
         demonstrations=document.demonstrations,
         settings=document.settings,
-        landmarks=(Place("start"), goal),
+        landmarks=(Place("start"), goal, cup),
         starts=document.starts,
         rules=(rule(),),
     )

@@ -35,6 +35,12 @@ CHANGES: dict[str, Edit] = {
     "remove_start": lambda d: edits.remove_start(d, 0),
     "move_landmark": lambda d: edits.move_landmark(d, "start", ELSEWHERE),
     "put_landmark_back": lambda d: edits.put_landmark_back(d, "goal"),
+    "put_landmarks_back": edits.put_landmarks_back,
+    "add_landmark": lambda d: edits.add_landmark(d, "via", Place("", taught=ELSEWHERE)),
+    "remove_landmark": lambda d: edits.remove_landmark(d, "cup"),
+    "rename_landmark": lambda d: edits.rename_landmark(d, 1, "red ball"),
+    "turn_landmark": lambda d: edits.turn_landmark(d, "cup", (0.0, 0.0, 1.0)),
+    "set_smoothing": lambda d: edits.set_smoothing(d, 0.25),
     "add_rule": lambda d: edits.add_rule(d, rule().constraint),
     "enable_rule": lambda d: edits.enable_rule(d, 0, False),
     "delete_rule": lambda d: edits.delete_rule(d, 0),
@@ -59,6 +65,9 @@ SAME: dict[str, Edit] = {
     "move_start": lambda d: edits.move_start(d, 0, d.starts[0].copy()),
     "move_landmark": lambda d: edits.move_landmark(d, "goal", d.landmarks[1].now),
     "put_landmark_back": lambda d: edits.put_landmark_back(d, "start"),
+    "rename_landmark": lambda d: edits.rename_landmark(d, 1, " goal "),
+    "turn_landmark": lambda d: edits.turn_landmark(d, "cup", d.landmarks[2].turn.copy()),
+    "set_smoothing": lambda d: edits.set_smoothing(d, d.smoothing),
     "enable_rule": lambda d: edits.enable_rule(d, 0, True),
 }
 """Edits that ask for what is already so."""
@@ -79,6 +88,18 @@ NONSENSE: dict[str, Edit] = {
     "a ragged start": lambda d: edits.add_start(d, [0.0, [1.0, 2.0], 3.0]),
     "a start that is not there": lambda d: edits.remove_start(d, 4),
     "an unknown landmark": lambda d: edits.move_landmark(d, "moon", ELSEWHERE),
+    "a landmark without a place": lambda d: edits.add_landmark(d, "via"),
+    "a second goal": lambda d: edits.add_landmark(d, "goal"),
+    "an unknown kind of landmark": lambda d: edits.add_landmark(d, "cloud", Place("", taught=ELSEWHERE)),
+    "a landmark beyond all reach": lambda d: edits.add_landmark(d, "via", Place("", taught=100 * ELSEWHERE)),
+    "removing an unknown landmark": lambda d: edits.remove_landmark(d, "moon"),
+    "a name that another landmark has": lambda d: edits.rename_landmark(d, 2, "goal"),
+    "a name for no landmark": lambda d: edits.rename_landmark(d, 7, "cup"),
+    "a name with a stroke": lambda d: edits.rename_landmark(d, 2, "cup/2"),
+    "a turn of a point": lambda d: edits.turn_landmark(d, "goal", (0.0, 0.0, 1.0)),
+    "a turn of two angles": lambda d: edits.turn_landmark(d, "cup", (0.0, 1.0)),
+    "a turn that is not a number": lambda d: edits.turn_landmark(d, "cup", (0.0, 0.0, float("nan"))),
+    "too much smoothing": lambda d: edits.set_smoothing(d, 7.0),
     "a rule that is not there": lambda d: edits.enable_rule(d, 3, False),
 }
 
@@ -88,7 +109,7 @@ def public_edits() -> set[str]:
         name
         for name, value in vars(edits).items()
         if callable(value)
-        and getattr(value, "__module__", "") == edits.__name__
+        and getattr(value, "__module__", "").startswith(edits.__name__)
         and not name.startswith("_")
         and not isinstance(value, type)
     } - MAKERS
@@ -173,6 +194,68 @@ def test_a_moved_landmark_goes_back_to_where_it_was_taught() -> None:
     back = edits.put_landmark_back(edits.move_landmark(document, "goal", ELSEWHERE), "goal")
 
     assert same_content(back, document)
+
+
+def test_landmarks_that_stand_where_they_were_taught_are_not_put_back_once_more() -> None:
+    document = edits.put_landmarks_back(furnished())
+
+    assert edits.put_landmarks_back(document) is document
+
+
+def test_a_landmark_keeps_its_kind_under_another_name() -> None:
+    document = edits.rename_landmark(taught(), 1, "red ball")
+
+    assert (document.landmarks[1].name, document.landmarks[1].kind) == ("red ball", "goal")
+
+
+@pytest.mark.parametrize("name", ["start", "goal"])
+def test_only_the_ends_of_the_motion_are_called_so(name: str) -> None:
+    document = edits.remove_landmark(furnished(), name)
+
+    with pytest.raises(EditError, match=f"Only the {name}"):
+        edits.rename_landmark(document, 1, name)
+
+
+@pytest.mark.parametrize("name", ["start", "goal"])
+def test_an_end_that_was_removed_can_be_added_again_without_a_place(name: str) -> None:
+    document = edits.add_landmark(edits.remove_landmark(taught(), name), name)
+
+    assert {place.kind for place in document.landmarks} == {"start", "goal"}
+
+
+def test_landmarks_are_numbered_by_kind_and_no_name_is_given_twice() -> None:
+    document, place = taught(), Place("", taught=ELSEWHERE)
+    for kind in ("via", "object", "via", "obstacle", "via"):
+        document = edits.add_landmark(document, kind, place)
+    document = edits.add_landmark(edits.remove_landmark(document, "way point 1"), "via", place)
+
+    names = [place.name for place in document.landmarks]
+    assert len(set(names)) == len(names)
+    assert names[2:] == ["object 1", "way point 2", "obstacle 1", "way point 3", "way point 4"]
+
+
+def test_there_can_be_twelve_landmarks_and_no_more() -> None:
+    document, place = taught(), Place("", taught=ELSEWHERE)
+    for _ in range(10):
+        document = edits.add_landmark(document, "via", place)
+
+    with pytest.raises(EditError, match="twelve"):
+        edits.add_landmark(document, "via", place)
+
+
+@pytest.mark.parametrize("turns", [-3, -1, 1, 2])
+def test_a_whole_turn_more_is_the_same_turn(turns: int) -> None:
+    angles = np.array([0.3, -0.2, 2.9])
+
+    turned = edits.turn_landmark(furnished(), "cup", angles + 2.0 * np.pi * turns).landmarks[2].turn
+
+    np.testing.assert_allclose(turned, angles, atol=1e-9)
+
+
+def test_an_object_that_is_turned_to_nothing_was_not_turned() -> None:
+    document = edits.turn_landmark(furnished(), "cup", np.zeros(3))
+
+    assert document.landmarks[2].turn is None
 
 
 def test_a_checked_point_is_a_copy_that_nobody_can_write_to() -> None:

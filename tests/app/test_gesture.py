@@ -31,6 +31,8 @@ NOTHING_THERE = (
     "/tube",
     "/directrix",
     "/landmarks/",
+    "/landmarks/goal/turn",
+    "/landmarks/cup/stem",
     "/",
     "",
 )
@@ -118,6 +120,33 @@ def test_a_pulled_landmark_moves_by_the_displacement() -> None:
 
     np.testing.assert_allclose(after.now - before.now, BY)
     np.testing.assert_array_equal(after.taught, before.taught)
+
+
+@given(angle=st.floats(-3.1, 3.1), height=st.floats(-0.2, 0.2), stretch=st.floats(0.3, 3.0))
+def test_the_handle_of_an_object_turns_it_as_far_as_the_pointer_goes_around_it(
+    angle: float, height: float, stretch: float
+) -> None:
+    document = furnished()
+    cup = document.landmarks[2]
+    arm = np.array([0.08, 0.02, 0.0])
+    pull = gesture.pull_on("/landmarks/cup/turn", cup.taught + arm, learn(document), WIDTH)
+    cos, sin = np.cos(angle), np.sin(angle)
+    there = stretch * np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]]) @ arm
+
+    turned = pull.apply(document, there + [0.0, 0.0, height] - arm).landmarks[2]
+
+    wanted = cup.turn + [0.0, 0.0, angle]
+    np.testing.assert_allclose(np.exp(1j * turned.turn), np.exp(1j * wanted), atol=1e-9)
+    np.testing.assert_array_equal(turned.taught, cup.taught)
+
+
+def test_without_a_start_landmark_a_start_follows_the_pointer_though_the_map_carries_it() -> None:
+    shifted = pulled(edits.remove_landmark(taught(), "start"), "/landmarks/goal")
+
+    before, after = (learn(d).runs[0] for d in (shifted, pulled(shifted, "/start/0")))
+
+    np.testing.assert_allclose(before.start - learn(taught()).runs[0].start, BY, atol=1e-9)
+    np.testing.assert_allclose(after.start - before.start, BY, atol=1e-6)
 
 
 def test_pulling_the_start_landmark_takes_the_starts_along() -> None:

@@ -29,7 +29,16 @@ def document(n: int = 30, demonstrations: int = 2) -> Document:
         about="One sentence.",
         demonstrations=tuple(Shown(demonstration(n, i), muted=True) for i in range(demonstrations)),
         settings=Settings(section="ellipse", align_by="time", stations=123),
-        landmarks=(Place("cup", taught=np.array([0.1, -0.4, 0.2]), now=np.array([0.2, -0.4, 0.2])),),
+        landmarks=(
+            Place(
+                "cup",
+                taught=np.array([0.1, -0.4, 0.2]),
+                now=np.array([0.2, -0.4, 0.2]),
+                kind="object",
+                turn=np.array([0.0, 0.1, 0.5]),
+            ),
+        ),
+        smoothing=0.1,
         starts=(np.array([0.1, 0.2, 0.3]), np.array([-0.0, 1e-300, np.pi])),
         rules=(Rule(constraint(), "Below the lid", enabled=False),),
         built_in=True,

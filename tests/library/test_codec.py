@@ -109,6 +109,19 @@ def test_a_field_that_an_older_skill_lacks_takes_its_default() -> None:
     assert decode_document(json.dumps(saved), {}).rules == ()
 
 
+def test_in_a_skill_from_before_there_were_kinds_the_start_and_the_goal_are_what_they_are_called() -> None:
+    saved = json.loads(encode_document(Document("Old")).text)
+    document = saved["document"]["Document"]
+    del document["smoothing"]
+    for place in document["landmarks"]:
+        del place["Place"]["kind"], place["Place"]["turn"]
+
+    old = decode_document(json.dumps(saved), {})
+
+    assert [(place.name, place.kind) for place in old.landmarks] == [("start", "start"), ("goal", "goal")]
+    assert old.smoothing == 0.0
+
+
 @pytest.mark.parametrize("version", [FORMAT + 1, 0, "1", None])
 def test_another_format_version_is_refused_with_a_sentence(version: object) -> None:
     saved = json.loads(encode_document(Document("New")).text) | {"format": version}

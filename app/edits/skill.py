@@ -1,13 +1,8 @@
-"""The edits: pure functions ``Document -> Document``.
-
-Each returns a new document, or *the same object* when there is nothing to change;
-the store relies on that to tell a real edit from an echo of a widget. Input that
-makes no sense raises an `EditError` that says what to do instead.
-"""
+"""Edits of a skill's name, settings, demonstrations, starts and rules."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any, Final, TypeVar
+from typing import Any
 
 import numpy as np
 
@@ -17,21 +12,12 @@ from app.document import (
     Alignment,
     Document,
     FloatArray,
-    Place,
     Rule,
     SectionKind,
     Shown,
 )
-from gc_core import Constraint, Demonstration, GcError
-
-LARGEST_COORDINATE: Final = 10.0
-"""No point of a document lies farther from the base than this [m]."""
-
-_T = TypeVar("_T")
-
-
-class EditError(GcError):
-    """An edit asks for something that the document does not have or allow."""
+from app.edits.checks import LONGEST_NAME, EditError, at, next_number, one_of, point, without
+from gc_core import Constraint, Demonstration
 
 
 def edit(document: Document, f: Callable[[Document], Document]) -> Document:
@@ -43,41 +29,15 @@ def edit(document: Document, f: Callable[[Document], Document]) -> Document:
     return replace(edited, title=title, built_in=False)
 
 
-def point(values: Sequence[float] | FloatArray) -> FloatArray:
-    """Check and freeze one position.
-
-    Returns
-    -------
-    (3,) array
-        Read-only copy [m].
-
-    Raises
-    ------
-    EditError
-        If it is not three finite numbers within ``LARGEST_COORDINATE``.
-    """
-    try:
-        p = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):  # words, or lists within the list
-        p = np.empty(0)
-    if p.shape != (3,) or not np.all(np.abs(p) <= LARGEST_COORDINATE):
-        raise EditError(
-            f"A position needs three numbers between -{LARGEST_COORDINATE:g} and "
-            f"{LARGEST_COORDINATE:g} m, got {str(values)[:80]}."
-        )
-    p.setflags(write=False)
-    return p
-
-
 def skill_of(title: str, demonstrations: Sequence[Demonstration]) -> Document:
     """Make a skill of demonstrations that come from elsewhere."""
     about = f"{len(demonstrations)} demonstrations, and the tube that was learned from them."
-    return add_demonstrations(Document(title.strip()[:80] or "My skill", about), demonstrations)
+    return add_demonstrations(Document(title.strip()[:LONGEST_NAME] or "My skill", about), demonstrations)
 
 
 def rename_skill(document: Document, title: str) -> Document:
     """Change the skill's name."""
-    title = title.strip()[:80]
+    title = title.strip()[:LONGEST_NAME]
     if title == document.title:
         return document
     if not title:
@@ -87,12 +47,12 @@ def rename_skill(document: Document, title: str) -> Document:
 
 def set_section(document: Document, section: SectionKind) -> Document:
     """Choose the kind of cross-section."""
-    return _with_settings(document, section=_one_of("cross-section", section, SECTION_KINDS))
+    return _with_settings(document, section=one_of("cross-section", section, SECTION_KINDS))
 
 
 def set_align_by(document: Document, align_by: Alignment) -> Document:
     """Choose how demonstrations are brought into correspondence."""
-    return _with_settings(document, align_by=_one_of("alignment", align_by, ALIGNMENTS))
+    return _with_settings(document, align_by=one_of("alignment", align_by, ALIGNMENTS))
 
 
 def set_stations(document: Document, stations: int) -> Document:
@@ -104,7 +64,7 @@ def set_stations(document: Document, stations: int) -> Document:
 
 def add_demonstrations(document: Document, demonstrations: Sequence[Demonstration]) -> Document:
     """Append demonstrations; those without a name are numbered."""
-    first = _next_number("Demonstration", [shown.demonstration.name for shown in document.demonstrations])
+    first = next_number("Demonstration", [shown.demonstration.name for shown in document.demonstrations])
     named = tuple(
         Shown(d if d.name else replace(d, name=f"Demonstration {first + i}"))
         for i, d in enumerate(demonstrations)
@@ -114,7 +74,7 @@ def add_demonstrations(document: Document, demonstrations: Sequence[Demonstratio
 
 def replace_demonstration(document: Document, index: int, demonstration: Demonstration) -> Document:
     """Put a corrected demonstration in the place of its original."""
-    shown = _at(document.demonstrations, index, "demonstration")
+    shown = at(document.demonstrations, index, "demonstration")
     if demonstration is shown.demonstration:
         return document
     return _with_shown(document, index, replace(shown, demonstration=demonstration))
@@ -122,8 +82,8 @@ def replace_demonstration(document: Document, index: int, demonstration: Demonst
 
 def rename_demonstration(document: Document, index: int, name: str) -> Document:
     """Change a demonstration's name."""
-    shown = _at(document.demonstrations, index, "demonstration")
-    name = name.strip()[:80]
+    shown = at(document.demonstrations, index, "demonstration")
+    name = name.strip()[:LONGEST_NAME]
     if not name or name == shown.demonstration.name:
         return document
     return _with_shown(document, index, replace(shown, demonstration=replace(shown.demonstration, name=name)))
@@ -131,7 +91,7 @@ def rename_demonstration(document: Document, index: int, name: str) -> Document:
 
 def mute_demonstration(document: Document, index: int, muted: bool) -> Document:
     """Keep a demonstration but do not learn from it, or learn from it again."""
-    shown = _at(document.demonstrations, index, "demonstration")
+    shown = at(document.demonstrations, index, "demonstration")
     if shown.muted == muted:
         return document
     return _with_shown(document, index, replace(shown, muted=muted))
@@ -139,20 +99,20 @@ def mute_demonstration(document: Document, index: int, muted: bool) -> Document:
 
 def duplicate_demonstration(document: Document, index: int) -> Document:
     """Append a copy of a demonstration, to be corrected into a variant."""
-    shown = _at(document.demonstrations, index, "demonstration")
+    shown = at(document.demonstrations, index, "demonstration")
     copy = replace(shown.demonstration, name=f"{shown.demonstration.name} (copy)")
     return replace(document, demonstrations=(*document.demonstrations, Shown(copy)))
 
 
 def delete_demonstration(document: Document, index: int) -> Document:
     """Take a demonstration out of the list."""
-    _at(document.demonstrations, index, "demonstration")
-    return replace(document, demonstrations=_without(document.demonstrations, index))
+    at(document.demonstrations, index, "demonstration")
+    return replace(document, demonstrations=without(document.demonstrations, index))
 
 
 def trim_demonstration(document: Document, index: int, start: float, stop: float) -> Document:
     """Keep the part of a demonstration between two times of its own clock [s]."""
-    shown = _at(document.demonstrations, index, "demonstration")
+    shown = at(document.demonstrations, index, "demonstration")
     d = shown.demonstration
     keep = (d.times >= start - 1e-9) & (d.times <= stop + 1e-9)
     if bool(np.all(keep)):
@@ -183,7 +143,7 @@ def move_start(document: Document, index: int, position: FloatArray) -> Document
     moved = point(position)
     if not document.starts and index == 0:
         return replace(document, starts=(moved,))
-    former = _at(document.starts, index, "start")
+    former = at(document.starts, index, "start")
     if np.array_equal(moved, former):
         return document
     starts = (*document.starts[:index], moved, *document.starts[index + 1 :])
@@ -192,43 +152,20 @@ def move_start(document: Document, index: int, position: FloatArray) -> Document
 
 def remove_start(document: Document, index: int) -> Document:
     """Take a start, and its reproduction, away."""
-    _at(document.starts, index, "start")
-    return replace(document, starts=_without(document.starts, index))
-
-
-def move_landmark(document: Document, name: str, position: FloatArray) -> Document:
-    """Put a landmark somewhere else: the cylinder bends.
-
-    While nothing has been taught the object itself is placed, so that later
-    demonstrations are tied to where it stands.
-    """
-    index, place = _landmark(document, name)
-    moved = point(position)
-    if document.demonstrations:
-        if place.now is not None and np.array_equal(moved, place.now):
-            return document
-        return _with_landmark(document, index, replace(place, now=moved))
-    if place.taught is not None and np.array_equal(moved, place.taught):
-        return document
-    return _with_landmark(document, index, replace(place, taught=moved))
-
-
-def put_landmark_back(document: Document, name: str) -> Document:
-    """Put a landmark back to where it stood while the skill was taught."""
-    index, place = _landmark(document, name)
-    return document if place.now is None else _with_landmark(document, index, replace(place, now=None))
+    at(document.starts, index, "start")
+    return replace(document, starts=without(document.starts, index))
 
 
 def add_rule(document: Document, constraint: Constraint, name: str = "") -> Document:
     """Keep a correction of a reproduction as a rule."""
-    number = _next_number("Rule", [rule.name for rule in document.rules])
+    number = next_number("Rule", [rule.name for rule in document.rules])
     rule = Rule(constraint, name or f"Rule {number}")
     return replace(document, rules=(*document.rules, rule))
 
 
 def enable_rule(document: Document, index: int, enabled: bool) -> Document:
     """Switch a rule on or off."""
-    rule = _at(document.rules, index, "rule")
+    rule = at(document.rules, index, "rule")
     if rule.enabled == enabled:
         return document
     rules = (*document.rules[:index], replace(rule, enabled=enabled), *document.rules[index + 1 :])
@@ -237,8 +174,8 @@ def enable_rule(document: Document, index: int, enabled: bool) -> Document:
 
 def delete_rule(document: Document, index: int) -> Document:
     """Forget a rule."""
-    _at(document.rules, index, "rule")
-    return replace(document, rules=_without(document.rules, index))
+    at(document.rules, index, "rule")
+    return replace(document, rules=without(document.rules, index))
 
 
 def _with_settings(document: Document, **changes: Any) -> Document:
@@ -249,39 +186,3 @@ def _with_settings(document: Document, **changes: Any) -> Document:
 def _with_shown(document: Document, index: int, shown: Shown) -> Document:
     before, after = document.demonstrations[:index], document.demonstrations[index + 1 :]
     return replace(document, demonstrations=(*before, shown, *after))
-
-
-def _with_landmark(document: Document, index: int, place: Place) -> Document:
-    before, after = document.landmarks[:index], document.landmarks[index + 1 :]
-    return replace(document, landmarks=(*before, place, *after))
-
-
-def _next_number(noun: str, names: Sequence[str]) -> int:
-    """One more than there are things, and than any name of the form ``<noun> <number>`` says."""
-    said = (name.removeprefix(f"{noun} ") for name in names if name.startswith(f"{noun} "))
-    numbers = [int(number) for number in said if number.isascii() and number.isdecimal() and len(number) < 7]
-    return max([len(names), *numbers]) + 1
-
-
-def _without(items: tuple[_T, ...], index: int) -> tuple[_T, ...]:
-    return (*items[:index], *items[index + 1 :])
-
-
-def _at(items: tuple[_T, ...], index: int, noun: str) -> _T:
-    if not 0 <= index < len(items):
-        raise EditError(f"There is no {noun} {index + 1}; there are {len(items)}.")
-    return items[index]
-
-
-def _landmark(document: Document, name: str) -> tuple[int, Place]:
-    for index, place in enumerate(document.landmarks):
-        if place.name == name:
-            return index, place
-    names = ", ".join(place.name for place in document.landmarks) or "none"
-    raise EditError(f"There is no landmark called {name}; there are: {names}.")
-
-
-def _one_of(noun: str, value: _T, valid: tuple[_T, ...]) -> _T:
-    if value not in valid:
-        raise EditError(f"{value!r} is no {noun}. Choose one of: {', '.join(map(str, valid))}.")
-    return value
