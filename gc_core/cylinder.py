@@ -69,6 +69,17 @@ class GeneralizedCylinder:
         return self._surface
 
     @cached_property
+    def slope(self) -> FloatArray:
+        """(N,) fastest change of a radius to a neighbouring station, by the way between them [-].
+
+        Circles below 1 are close to a canal surface, the envelope of spheres of these radii; where the radius
+        changes faster than the centre moves there is no such envelope.
+        """
+        step = np.maximum(np.diff(self.arc_length), np.finfo(float).tiny)
+        change = np.abs(np.diff(self.radii, axis=0)).max(axis=1) / step
+        return read_only(np.maximum(np.append(change, 0.0), np.append(0.0, change)))
+
+    @cached_property
     def volume(self) -> float:
         """Volume inside `surface()` with flat ends; what is covered twice counts twice [m^3]."""
         # Faces seen from a point on the directrix add up to the volume (divergence theorem).

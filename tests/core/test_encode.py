@@ -347,3 +347,13 @@ def test_nothing_shown_is_refused() -> None:
 def test_demonstrations_in_opposite_directions_are_refused() -> None:
     with pytest.raises(OpposedDemonstrationsError):
         encode([line((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)), line((1.0, 0.0, 0.0), (0.0, 0.0, 0.0))])
+
+
+def test_the_slope_says_where_circles_are_no_envelope_of_spheres() -> None:
+    def cone(growth: float) -> GeneralizedCylinder:
+        sides = [(1.0, growth, 0.0), (1.0, -growth, 0.0), (1.0, 0.0, growth), (1.0, 0.0, -growth)]
+        return encode([line((0.0, 0.0, 0.0), side) for side in sides], section="circle")
+
+    np.testing.assert_allclose(np.median(cone(0.3).slope), 0.3, rtol=0.01)
+    assert (cone(0.9).slope < 1.0).all()
+    assert (cone(1.3).slope > 1.0).any()
