@@ -42,11 +42,12 @@ def sheet(width: float, height: float) -> Any:
     return plt.figure(figsize=(width, height), layout="constrained")
 
 
-def space(figure: Any, place: Any, cylinder: GeneralizedCylinder, *, zoom: float = 1.0) -> Any:
-    """Axes in three dimensions with one scale for all of them and room for a tube."""
+def space(figure: Any, place: Any, *cylinders: GeneralizedCylinder, zoom: float = 1.0) -> Any:
+    """Axes in three dimensions with one scale for all of them and room for all tubes."""
     axes = figure.add_subplot(place, projection="3d", computed_zorder=False)
     axes.view_init(elev=16, azim=-62)
-    low, high = cylinder.surface().min(axis=(0, 1)), cylinder.surface().max(axis=(0, 1))
+    corners = np.concatenate([cylinder.surface().reshape(-1, 3) for cylinder in cylinders])
+    low, high = corners.min(axis=0), corners.max(axis=0)
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
     axes.set_box_aspect(high - low, zoom=zoom)
     for name, axis in (("x", axes.xaxis), ("y", axes.yaxis), ("z", axes.zaxis)):
@@ -70,15 +71,32 @@ def tube(axes: Any, cylinder: GeneralizedCylinder) -> None:
     axes.plot(*cylinder.directrix.T, color=DIRECTRIX, linewidth=2.0, label="directrix")
 
 
+def former(axes: Any, cylinder: GeneralizedCylinder) -> None:
+    """Draw faintly where a tube was taught."""
+    rings = cylinder.surface()[np.linspace(0, len(cylinder.directrix) - 1, OUTLINES).astype(int)]
+    for ring in rings[:, [*range(rings.shape[1]), 0]]:
+        axes.plot(*ring.T, color=TUBE, alpha=0.35, linewidth=0.5)
+    axes.plot(*cylinder.directrix.T, color=DIRECTRIX, alpha=0.35, linewidth=1.2, label="directrix as taught")
+
+
+def landmarks(axes: Any, before: FloatArray, after: FloatArray) -> None:
+    """Draw landmarks (L, 3) where they stand, and hollow, with a line from there, where they stood."""
+    for old, new in zip(before, after, strict=True):
+        axes.plot(*np.stack((old, new)).T, color=GOAL, linewidth=1.0)
+    axes.plot(*before.T, "o", markerfacecolor="white", markeredgecolor=GOAL, markersize=6)
+    axes.plot(*after.T, "o", color=GOAL, markersize=8, label="landmarks")
+
+
 def lines(axes: Any, paths: list[FloatArray], label: str, **style: Any) -> None:
     """Draw paths (K, 3) or (K, 2), with one entry in the legend."""
     for j, path in enumerate(paths):
         axes.plot(*path.T, label=label if j == 0 else None, **style)
 
 
-def scale_bar(axes: Any, length: float) -> None:
-    """Show a length [m] along x where axes are left out."""
-    begin, far, low = axes.get_xlim()[1] - length, axes.get_ylim()[1], axes.get_zlim()[0]
+def scale_bar(axes: Any, length: float, *, part: float = 1.0) -> None:
+    """Show a length [m] along x where axes are left out, from one end (0) to the other (1) of the x axis."""
+    left, right = axes.get_xlim()
+    begin, far, low = left + part * (right - left - length), axes.get_ylim()[1], axes.get_zlim()[0]
     axes.plot([begin, begin + length], [far, far], [low, low], color=INK, linewidth=1.5)
     axes.text(begin + 0.5 * length, far, low, f"\n{100 * length:.0f} cm", ha="center", va="top", color=INK)
 

@@ -13,19 +13,23 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from gc_core import metrics
+from gc_core import GeneralizedCylinder, Reproduction, metrics
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 DOCS = ROOT / "docs"
 NAMES = sorted(path.stem for path in HERE.glob("[0-9]*.py"))
 RED, BLUE, GREY, MAGENTA = (196, 22, 28), (31, 63, 168), (142, 150, 166), (224, 75, 220)
+YELLOW = (242, 186, 26)
 SHOWN = {
     "01_encode": (RED, BLUE, GREY),
     "02_reproduce": (BLUE, MAGENTA),
     "03_orientation": (RED, BLUE, MAGENTA),
     "04_starts_outside": (BLUE, GREY, MAGENTA),
     "05_section_kinds": (RED, BLUE, GREY),
+    "06_new_goals": (BLUE, MAGENTA, YELLOW),
+    "07_new_starts": (BLUE, MAGENTA, YELLOW),
+    "08_both_ends": (BLUE, MAGENTA, YELLOW),
 }
 LARGEST_FIGURE = 150_000
 """Bytes of a figure in the docs."""
@@ -114,6 +118,39 @@ def test_an_ellipse_is_tighter_than_a_circle_and_the_hull_tighter_than_all(run: 
 
     assert volumes["ellipse"] < volumes["circle"]
     assert min(volumes, key=volumes.__getitem__) == "hull"
+
+
+def assert_generalized(tube: GeneralizedCylinder, run: Reproduction, after: np.ndarray) -> None:
+    """The tube's ends are at the landmarks (2, 3), and the runs are in the tube."""
+    assert np.linalg.norm(tube.directrix[[0, -1]] - after, axis=1).max() < 1e-3
+    assert not (tube.diagnostics.folded | tube.diagnostics.crossing).any()
+    assert [metrics.containment(tube, path) for path in run.positions] == [1.0] * len(run.positions)
+
+
+@pytest.mark.parametrize(("name", "count"), [("06_new_goals", 3), ("07_new_starts", 4)])
+def test_the_tube_follows_each_new_goal_and_each_new_start(run: Runner, name: str, count: int) -> None:
+    found = run(name)
+
+    assert len(found["tubes"]) == count
+    for tube, runs, after in zip(found["tubes"], found["runs"], found["placings"], strict=True):
+        assert_generalized(tube, runs, after)
+        assert (np.linalg.norm(after - found["before"], axis=1) > 0.1).sum() == 1
+
+
+def test_the_hand_closes_at_each_new_start_and_opens_at_the_goal(run: Runner) -> None:
+    found = run("07_new_starts")
+
+    for runs, after in zip(found["runs"], found["placings"], strict=True):
+        closes, opens = np.flatnonzero(np.diff(runs.gripper)) + 1
+        assert np.linalg.norm(runs.positions[:, [closes, opens]] - after, axis=2).max() < 0.03
+
+
+def test_both_ends_are_moved_at_once(run: Runner) -> None:
+    found = run("08_both_ends")
+
+    for name, tube in found["tubes"].items():
+        assert_generalized(tube, found["runs"][name], found["after"][name])
+        assert np.linalg.norm(found["after"][name] - found["before"][name], axis=1).min() > 0.1
 
 
 @pytest.mark.parametrize("name", NAMES)
