@@ -13,6 +13,9 @@ from gc_core.errors import ShapeError, ZeroQuaternionError
 FRAME_ARM = 0.1
 """A landmark with an orientation acts through points this far out on its axes [m]."""
 
+ACTING = 7
+"""Points through which it acts: its origin and one on each half-axis."""
+
 
 @dataclass(frozen=True, eq=False)
 class Landmark:

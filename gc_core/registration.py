@@ -9,21 +9,22 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.spatial.distance import cdist
 
-from gc_core.arrays import FloatArray, IntArray, finite, read_only_fields
+from gc_core.arrays import BoolArray, FloatArray, finite, read_only_fields
 from gc_core.errors import InvalidSettingError, LandmarkMismatchError
-from gc_core.landmarks import Landmark, acting_points, landmarks, rotation
+from gc_core.landmarks import ACTING, Landmark, acting_points, landmarks, rotation
+from gc_core.rank_cases import (
+    SAME_PLACE,
+    change_of_affine,
+    dimensions,
+    first_turn,
+    merged,
+    not_collapsed,
+    spread,
+    words,
+)
 
-SAME_PLACE = 1e-9
-"""Landmarks nearer than this are one [m]."""
-
-FLAT = 1e-6
-"""Landmarks whose spread across a direction is below this part of their extent have none there [-]."""
-
-GREATEST_SHEAR = np.deg2rad(60.0)
-"""Flat or straight arrangements that turn by less are sheared; others are turned first [rad]."""
-
-LEAST_STRETCH = 0.05
-"""Two landmarks are never brought closer than to this part of their distance: space would collapse [-]."""
+STRAIGHT = 1e-11
+"""A map whose weights are below this part of the landmarks' spread is affine: that is rounding [-]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +48,8 @@ class ThinPlateSpline:
     scale: float
     """Spread of the landmarks [m]."""
     bending_energy: float
-    """Sum over coordinates of w^T K w / scale; 0 for an affine map [m^2]."""
+    """Sum over coordinates of w^T K w / scale; 0 for an affine map. Times 8 pi it is the integral over all
+    space of the squared second derivatives [m]."""
     rank: int
     """Dimensions that the source landmarks span: 0 a point, 1 a line, 2 a plane, 3 space."""
     case: str
@@ -63,8 +65,9 @@ class ThinPlateSpline:
         """Fit the smoothest map that takes points to points.
 
         Where the points span less than space, the map leaves the other directions as they are: the affine
-        part is as near the identity as can be. Landmarks on a line or plane that turn by 60 degrees or more
-        are turned by the smallest rotation first, since a shear would mirror them.
+        part is as near the identity as can be. Landmarks on a line or plane that turn by much are turned
+        first, since a shear would mirror them. All this comes gradually as landmarks approach a line or plane
+        (`gc_core.rank_cases`).
 
         Parameters
         ----------
@@ -90,6 +93,12 @@ class ThinPlateSpline:
         ----------
         .. [1] F. L. Bookstein. Principal warps: thin-plate splines and the decomposition of deformations.
            IEEE PAMI 11(6), 1989. doi:10.1109/34.24792
+
+        Notes
+        -----
+        Where the landmarks span space this is SciPy's ``RBFInterpolator(kernel="linear", degree=1)`` over the
+        scaled domain, and tested against it. It is not used: it refuses landmarks that span less, has no
+        Jacobian, and takes longer for few centres than the whole of a drag may.
         """
         before = finite(np.reshape(source, (-1, 3)) if np.size(source) == 0 else source, "source", (None, 3))
         after = finite(np.reshape(target, (-1, 3)) if np.size(target) == 0 else target, "target", (None, 3))
@@ -115,11 +124,7 @@ class ThinPlateSpline:
             Where they go [m].
         """
         points = np.asarray(points, dtype=np.float64)
-        mapped = (points - self.origin) @ self.linear.T + self.image
-        if not len(self.weights):
-            return mapped
-        flat = points.reshape(-1, 3)
-        return mapped + (_kernel(flat, self.centres, self.scale) @ self.weights).reshape(points.shape)
+        return map_columns(self, points.reshape(-1, 3).T).T.reshape(points.shape)
 
     def jacobian(self, points: ArrayLike) -> FloatArray:
         """Derivative of the map.
@@ -132,15 +137,53 @@ class ThinPlateSpline:
         Returns
         -------
         (P, 3, 3) array
-            Row: output, column: input. At a landmark, where the kernel has a corner, its part is 0 [-].
+            Row: output, column: input. At a landmark, where the map has a corner, the mean of all sides [-].
         """
         points = np.asarray(points, dtype=np.float64)
         if not len(self.weights):
             return np.broadcast_to(self.linear, (len(points), 3, 3)).copy()
-        away = points[:, None, :] - self.centres
-        distance = np.sqrt(np.einsum("pli,pli->pl", away, away))[..., None]
-        unit = np.where(distance > SAME_PLACE, away / np.maximum(distance, SAME_PLACE), 0.0)
-        return self.linear - np.einsum("lo,pli->poi", self.weights, unit) / self.scale
+        away = points.T[:, :, None] - self.centres.T[:, None]
+        distance = np.sqrt(np.einsum("ipl,ipl->pl", away, away))
+        distance[distance <= SAME_PLACE] = np.inf
+        away /= distance
+        return self.linear - np.moveaxis(away @ (self.weights / self.scale), 0, 2)
+
+
+def map_columns(spline: ThinPlateSpline, points: FloatArray) -> FloatArray:
+    """Map points (3, P) that are given and returned column by column [m]."""
+    mapped = spline.linear @ (points - spline.origin[:, None])
+    mapped += spline.image[:, None]
+    if len(spline.weights):
+        mapped += spline.weights.T @ _kernel(spline.centres, points.T, spline.scale)
+    return mapped
+
+
+def has_corner(spline: ThinPlateSpline, points: FloatArray) -> BoolArray:
+    """Tell at which points (P, 3) [m] a map has a corner, because a landmark is there: (P,)."""
+    if not len(spline.weights):
+        return np.zeros(len(points), dtype=bool)
+    return np.asarray(cdist(points, spline.centres).min(axis=1) <= SAME_PLACE)
+
+
+def turns_inside_out(spline: ThinPlateSpline, points: FloatArray) -> BoolArray:
+    """Tell where a map turns space inside out.
+
+    Parameters
+    ----------
+    spline : ThinPlateSpline
+    points : (P, 3) array
+        [m].
+
+    Returns
+    -------
+    (P,) array of bool
+        Where the determinant of the Jacobian is 0 or less.
+    """
+    most = np.sqrt(np.einsum("lo,lo->l", spline.weights, spline.weights)).sum() / spline.scale
+    if most < float(np.linalg.svd(spline.linear, compute_uv=False)[-1]):
+        # The bending cannot undo the affine part anywhere.
+        return np.full(len(points), float(np.linalg.det(spline.linear)) <= 0.0)
+    return np.linalg.det(spline.jacobian(points)) <= 0.0
 
 
 def register(
@@ -183,7 +226,12 @@ def register(
     if len(pairs) == 1 and len(places) > 1:
         (a, b), (one, two) = (before[0], after[0]), (rotation(before[0]), rotation(after[0]))
         return _affine(two @ one.T, a.position, b.position, "one frame: a rigid motion", rank=3)
-    return ThinPlateSpline.fit(places, moved, regularization)
+    spline = ThinPlateSpline.fit(places, moved, regularization)
+    frames = (len(places) - len(pairs)) // (ACTING - 1)
+    if not frames:
+        return spline
+    plural = "s" if frames > 1 else ""
+    return replace(spline, case=f"{spline.case}, with {frames} frame{plural} of {ACTING} points each")
 
 
 def _affine(
@@ -193,125 +241,62 @@ def _affine(
     return ThinPlateSpline(none, none, linear, origin, image, 1.0, 0.0, rank, case, 0.0)
 
 
-def _merged(source: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Replace coincident sources (L, 3) by one, with the mean of their targets."""
-    apart = np.linalg.norm(source[:, None] - source[None], axis=2)
-    group: IntArray = np.argmax(apart <= SAME_PLACE, axis=1)
-    keep, member = np.unique(group, return_inverse=True)
-    total = np.zeros((len(keep), 3))
-    np.add.at(total, member, target)
-    counts = np.bincount(member).astype(np.float64)[:, None]
-    return source[keep], np.asarray(total / counts, dtype=np.float64)
-
-
 def _fit(all_sources: FloatArray, all_targets: FloatArray, regularization: float) -> ThinPlateSpline:
-    source, target = _merged(all_sources, all_targets)
+    source, target = merged(all_sources, all_targets)
     origin, image = source.mean(axis=0), target.mean(axis=0)
     centred, moved = source - origin, target - image
-    axes = _spanned_axes(centred)
-    rank = len(axes)
-    scale = float(np.sqrt((centred**2).sum() / len(source))) or 1.0
-    turn = _turn(centred, moved) if 0 < rank < 3 else np.eye(3)
-    if len(source) == 2:
-        moved = _not_collapsed(centred, moved)
-    spanned = axes.T
-    weights, stretch = _solve(source, centred @ spanned, moved - centred @ turn.T, scale, regularization)
-    # The kernel's mean goes into the image, so that `image` is where `origin` would go without bending.
-    linear = turn + stretch[1:].T @ spanned.T
-    energy = float(np.einsum("li,lm,mi->", weights, _kernel(source, source, scale), weights)) / scale
+    scale = spread(centred)
+    rank, strong = dimensions(centred / scale)
+    turn = first_turn(centred, moved) if 0 < strong < 3 else np.eye(3)
+    if rank:
+        moved = not_collapsed(centred, moved, turn)
+    weights, shift, change = _solve(centred / scale, (moved - centred @ turn.T) / scale, regularization)
+    bent = bool(np.abs(weights).max() > STRAIGHT)
+    weights = weights * scale
+    kernel = _kernel(source, source, scale)
     spline = ThinPlateSpline(
-        centres=source if rank + 1 < len(source) else np.zeros((0, 3)),
-        weights=weights if rank + 1 < len(source) else np.zeros((0, 3)),
-        linear=linear,
+        centres=source if bent else np.zeros((0, 3)),
+        weights=weights if bent else np.zeros((0, 3)),
+        linear=turn + change.T,
         origin=origin,
-        image=image + stretch[0],
+        image=image + scale * shift,
         scale=scale,
-        bending_energy=max(energy, 0.0),
+        bending_energy=max(float(np.einsum("li,lm,mi->", weights, kernel, weights)) / scale, 0.0) * bent,
         rank=rank,
-        case=_case(len(source), rank, not np.array_equal(turn, np.eye(3)), len(all_sources) - len(source)),
+        case=words(
+            len(source),
+            rank,
+            strong,
+            turned=not np.array_equal(turn, np.eye(3)),
+            merged_count=len(all_sources) - len(source),
+        ),
         residual=0.0,
     )
     return replace(spline, residual=float(np.linalg.norm(spline(all_sources) - all_targets, axis=1).max()))
 
 
-def _spanned_axes(centred: FloatArray) -> FloatArray:
-    """Orthonormal directions (rank, 3) in which points (L, 3) about their mean differ."""
-    spread, axes = np.linalg.eigh(centred.T @ centred)
-    sizes = np.sqrt(np.maximum(spread, 0.0))
-    return np.asarray(axes.T[sizes > max(FLAT * float(sizes[-1]), SAME_PLACE)], dtype=np.float64)
-
-
 def _solve(
-    source: FloatArray, coordinates: FloatArray, displacement: FloatArray, scale: float, regularization: float
-) -> tuple[FloatArray, FloatArray]:
-    """Weights (L, 3) and polynomial (1 + rank, 3) of the displacement (L, 3)."""
-    count, rank = coordinates.shape
-    system = np.zeros((count + rank + 1, count + rank + 1))
-    system[:count, :count] = _kernel(source, source, scale) + regularization * np.eye(count)
-    system[:count, count] = 1.0
-    system[:count, count + 1 :] = coordinates / scale
-    system[count:, :count] = system[:count, count:].T
-    right = np.concatenate((displacement, np.zeros((rank + 1, 3))))
+    scaled: FloatArray, displacement: FloatArray, regularization: float
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Weights (L, 3), shift (3,) and change of the affine part (3, 3) that displace landmarks (L, 3).
+
+    Landmarks are about their mean and displaced in units of their spread, which is 1. The weights meet the
+    displacement whatever the affine part is.
+    """
+    count = len(scaled)
+    system = np.zeros((count + 1, count + 1))
+    system[:count, :count] = _kernel(scaled, scaled, 1.0)
+    system.flat[: count * (count + 1) : count + 2] += regularization
+    system[:count, count] = system[count, :count] = 1.0
+    right = np.concatenate((np.concatenate((scaled, displacement), axis=1), np.zeros((1, 6))))
     solution = np.asarray(np.linalg.solve(system, right), dtype=np.float64)
-    polynomial = solution[count:]
-    return solution[:count], np.concatenate((polynomial[:1], polynomial[1:] / scale))
+    by_place, by_displacement = solution[:, :3], solution[:, 3:]
+    gain, wanted = scaled.T @ by_place[:count], scaled.T @ by_displacement[:count]
+    change = change_of_affine(scaled, gain, wanted)
+    solved = by_displacement - by_place @ change
+    return solved[:count], solved[count], change
 
 
 def _kernel(points: FloatArray, centres: FloatArray, scale: float) -> FloatArray:
     """-|x - s| / scale, (P, L) array."""
     return np.asarray(cdist(points, centres), dtype=np.float64) * (-1.0 / scale)
-
-
-def _turn(source: FloatArray, target: FloatArray) -> FloatArray:
-    """Smallest rotation (3, 3) of a flat arrangement onto its target; identity below 60 degrees."""
-    left, sizes, right = np.linalg.svd(target.T @ source)
-    if sizes[0] <= SAME_PLACE**2:
-        return np.eye(3)
-    if sizes[1] <= FLAT * sizes[0]:
-        rotation = _between(right[0], left[:, 0])
-    else:
-        rotation = left @ np.diag([1.0, 1.0, np.sign(np.linalg.det(left @ right))]) @ right
-    angle = np.arccos(np.clip(0.5 * (np.trace(rotation) - 1.0), -1.0, 1.0))
-    return np.eye(3) if angle < GREATEST_SHEAR else rotation
-
-
-def _between(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Smallest rotation (3, 3) of unit vector a to b; opposite ones turn about the most upright axis."""
-    axis, cos = np.cross(a, b), float(a @ b)
-    if cos < -1.0 + 1e-9:
-        up = np.array([0.0, 0.0, 1.0]) if abs(a[2]) < 0.9 else np.array([1.0, 0.0, 0.0])
-        axis = up - (up @ a) * a
-        axis = axis / np.linalg.norm(axis)
-        return 2.0 * np.outer(axis, axis) - np.eye(3)
-    cross = np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
-    return np.eye(3) + cross + cross @ cross / (1.0 + cos)
-
-
-def _not_collapsed(source: FloatArray, target: FloatArray) -> FloatArray:
-    """Keep two targets (2, 3) about their mean from falling into one place."""
-    chord, wanted = source[1] - source[0], target[1] - target[0]
-    least = LEAST_STRETCH * float(np.linalg.norm(chord))
-    length = float(np.linalg.norm(wanted))
-    if length >= least:
-        return target
-    direction = wanted / length if length > SAME_PLACE else chord / np.linalg.norm(chord)
-    return np.array([-0.5, 0.5])[:, None] * least * direction
-
-
-def _case(count: int, rank: int, turned: bool, merged: int) -> str:
-    """Name of the case in words."""
-    if rank == 0:
-        words = "one landmark: a translation"
-    elif count == 2:
-        words = (
-            "two landmarks: a turn, then a stretch along them"
-            if turned
-            else "two landmarks: a stretch along them"
-        )
-    elif rank == 3:
-        words = "an affine map" if count == 4 else "a thin-plate spline"
-    else:
-        shape = "on a line" if rank == 1 else "in a plane"
-        first = "turn, then a " if turned else ""
-        words = f"landmarks {shape}: a {first}thin-plate spline that keeps what is across"
-    return words + (f" ({merged} in the same place merged)" if merged else "")
