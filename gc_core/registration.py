@@ -142,11 +142,7 @@ class ThinPlateSpline:
         points = np.asarray(points, dtype=np.float64)
         if not len(self.weights):
             return np.broadcast_to(self.linear, (len(points), 3, 3)).copy()
-        away = points.T[:, :, None] - self.centres.T[:, None]
-        distance = np.sqrt(np.einsum("ipl,ipl->pl", away, away))
-        distance[distance <= SAME_PLACE] = np.inf
-        away /= distance
-        return self.linear - np.moveaxis(away @ (self.weights / self.scale), 0, 2)
+        return self.linear - _bending(self, points).transpose(2, 1, 0)
 
 
 def map_columns(spline: ThinPlateSpline, points: FloatArray) -> FloatArray:
@@ -183,7 +179,21 @@ def turns_inside_out(spline: ThinPlateSpline, points: FloatArray) -> BoolArray:
     if most < float(np.linalg.svd(spline.linear, compute_uv=False)[-1]):
         # The bending cannot undo the affine part anywhere.
         return np.full(len(points), float(np.linalg.det(spline.linear)) <= 0.0)
-    return np.linalg.det(spline.jacobian(points)) <= 0.0
+    x, y, z = spline.linear.T[:, :, None] - _bending(spline, points)
+    normal = (y[1] * z[2] - y[2] * z[1], y[2] * z[0] - y[0] * z[2], y[0] * z[1] - y[1] * z[0])
+    return x[0] * normal[0] + x[1] * normal[1] + x[2] * normal[2] <= 0.0
+
+
+def _bending(spline: ThinPlateSpline, points: FloatArray) -> FloatArray:
+    """What bending takes from the Jacobian at points (P, 3): (3, 3, P), input coordinate first."""
+    away = np.ascontiguousarray(points.T)[:, None] - spline.centres.T[:, :, None]
+    square = away[0] * away[0]
+    square += away[1] * away[1]
+    square += away[2] * away[2]
+    distance = np.sqrt(square, out=square)
+    distance[distance <= SAME_PLACE] = np.inf
+    away /= distance
+    return (spline.weights.T / spline.scale) @ away
 
 
 def register(
