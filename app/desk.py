@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
-from app import edits, gesture, handpull, player, sentences
+from app import attention, edits, gesture, handpull, player, sentences
 from app.actions import Drag
 from app.arm.protocol import Arm
 from app.document import Document, FloatArray, View
@@ -18,7 +18,7 @@ from app.files import Frame, Reading, Unit
 from app.gesture import Pull
 from app.grasp import Grasp
 from app.handpull import HandPull
-from app.model import learn
+from app.model import Model, learn
 from app.store import Hand, Offer, Plan, Playback, State, Store
 
 SLIP: Final = 0.001
@@ -85,14 +85,8 @@ class Desk:
         return document
 
     def _words(self) -> tuple[str, bool]:
-        shortfall = self._driver.hand.shortfall
-        if shortfall is not None:
-            return f"The arm cannot follow: {shortfall.reason}.", True
-        if self._held is not None and self._held.problem:
-            return self._held.problem, True
-        if self.model.problem is not None:
-            return self.model.problem, True
-        return self.message, self.warning
+        said = attention.urgent(self._driver.hand, self._held, self.model, self._arm)
+        return (self.message, self.warning) if said is None else said
 
     def say(self, message: str, *, warning: bool = False) -> None:
         """Show a sentence."""
@@ -261,13 +255,13 @@ class Desk:
             return
         pull = held.pull
         if isinstance(pull, HandPull):
-            self._let_hand_go(pull, pull.finish(), now)
+            self._let_hand_go(pull, pull.finish(), now, held.before)
         elif held.moved >= SLIP:
             self.store.edit(lambda d: pull.apply(d, held.track.displacement), pull.name, now=now)
             if pull.node.startswith("/start/"):
                 self.playback = player.play(replace(self.playback, time=0.0), True)
 
-    def _let_hand_go(self, pull: HandPull, hand: Hand, now: float) -> None:
+    def _let_hand_go(self, pull: HandPull, hand: Hand, now: float, among: Model) -> None:
         self._driver.released(hand, pull.begins_at.joints if pull.records else None, now)
         if not pull.records:
             self.say("The next demonstration begins here.")
@@ -276,10 +270,10 @@ class Desk:
         if drawn.length < SHORTEST:
             self.say(sentences.too_short(drawn), warning=True)
             return
-        shown = handpull.demonstration(drawn)
-        self.store.edit(lambda d: edits.add_demonstrations(d, [shown]), "demonstrate", now=now)
+        shown = handpull.taken_back(handpull.demonstration(drawn), among)
+        self.store.edit(lambda d: handpull.added(d, shown), "demonstrate", now=now)
         learned_from = sum(not shown.muted for shown in self.store.document.demonstrations)
-        self.say(sentences.demonstrated(drawn, learned_from))
+        self.say(sentences.demonstrated(drawn, learned_from, shown), warning=shown.muted)
 
     def move_hand(self, position: FloatArray, now: float) -> None:
         """Move the hand, and the start of the next demonstration, without recording."""
@@ -287,7 +281,7 @@ class Desk:
         self.playback = replace(self.playback, playing=False)
         pull = self._take_hand(now, records=False)
         pull.aim(now, edits.point(position))
-        self._let_hand_go(pull, pull.finish(LONGEST_WAY), now)
+        self._let_hand_go(pull, pull.finish(LONGEST_WAY), now, self.model)
 
     # --- time --------------------------------------------------------------------------
 

@@ -15,7 +15,7 @@ import numpy as np
 from app import edits
 from app.actions import Drag
 from app.document import Document, FloatArray
-from app.model import Anchor, Model
+from app.model import Model
 from gc_core import Constraint, Demonstration, Reproduction, soft_correction
 
 GRACE: Final = 0.15
@@ -121,7 +121,9 @@ def pull_on(node: str, grabbed: FloatArray, model: Model, width: float) -> Pull 
     """
     kind, _, which = node.strip("/").partition("/")
     if kind == "landmarks":
-        return _pull_landmark(node, which, grabbed, model)
+        return _pull_landmark(node, which, model)
+    if kind == "turns":
+        return _pull_turn(node, which, grabbed, model)
     index = int(which) if which.isdecimal() else -1
     if kind == "start" and 0 <= index < len(model.runs):
         return _pull_start(node, index, model)
@@ -132,28 +134,27 @@ def pull_on(node: str, grabbed: FloatArray, model: Model, width: float) -> Pull 
     return None
 
 
-def _pull_landmark(node: str, name: str, grabbed: FloatArray, model: Model) -> Pull | None:
-    name, _, part = name.partition("/")
-    anchor = next((anchor for anchor in model.anchors if anchor.name == name), None)
-    if anchor is None:
+def _pull_landmark(node: str, name: str, model: Model) -> Pull | None:
+    origin = next((anchor.now for anchor in model.anchors if anchor.name == name), None)
+    if origin is None:
         return None
-    if part:
-        return _pull_turn(node, anchor, grabbed) if part == "turn" and anchor.kind == "object" else None
-    origin = anchor.now
     return Pull(node, f"move {name}", lambda d, by: edits.move_landmark(d, name, _above(origin + by)))
 
 
-def _pull_turn(node: str, anchor: Anchor, grabbed: FloatArray) -> Pull:
-    """The handle of an object turns it about the vertical: by as much as the pointer goes around it."""
+def _pull_turn(node: str, name: str, grabbed: FloatArray, model: Model) -> Pull | None:
+    """The knob of an object turns it about the vertical: by as much as the pointer goes around it."""
+    anchor = next((anchor for anchor in model.anchors if anchor.name == name), None)
+    if anchor is None or anchor.kind != "object":
+        return None
     turn = np.zeros(3) if anchor.turn is None else anchor.turn
     arm = (grabbed - anchor.now)[:2]
 
     def apply(document: Document, by: FloatArray) -> Document:
         x, y = arm + by[:2]
         angle = np.arctan2(arm[0] * y - arm[1] * x, arm[0] * x + arm[1] * y)
-        return edits.turn_landmark(document, anchor.name, turn + np.array([0.0, 0.0, angle]))
+        return edits.turn_landmark(document, name, turn + np.array([0.0, 0.0, angle]))
 
-    return Pull(node, f"turn {anchor.name}", apply)
+    return Pull(node, f"turn {name}", apply)
 
 
 def _pull_start(node: str, index: int, model: Model) -> Pull:

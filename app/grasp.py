@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app import edits, gesture
+from app import gesture, handpull
 from app.actions import Drag
 from app.document import Document
 from app.gesture import Pull, Track
@@ -78,4 +78,4 @@ class Grasp:
         if not isinstance(self.pull, HandPull):
             return self.pull.apply(document, self.track.displacement)
         part = self.pull.preview(self.before.cylinder)
-        return document if part is None else edits.add_demonstrations(document, [part])
+        return document if part is None else handpull.added(document, handpull.taken_back(part, self.before))

@@ -10,9 +10,10 @@ from typing import Final
 
 import numpy as np
 
-from app import servo
+from app import edits, servo
 from app.arm.protocol import Arm, Shortfall
-from app.document import FloatArray
+from app.document import Document, FloatArray
+from app.model import Model
 from app.servo import Motion
 from app.store import Hand
 from gc_core import Demonstration, GeneralizedCylinder, reproduce
@@ -21,6 +22,8 @@ LATE: Final = 0.3
 """A hand that is off its target for this long cannot follow [s]."""
 SHOWN_FROM: Final = 0.03
 """A drawn part is shown as a demonstration from this length on [m]."""
+LOST: Final = 0.001
+"""A sample that misses its way back by more than this has none [m]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,6 +148,37 @@ class HandPull:
 def demonstration(drawn: Drawn) -> Demonstration:
     """Make a demonstration of what was recorded."""
     return Demonstration(drawn.times, drawn.positions, gripper=drawn.gripper)
+
+
+@dataclass(frozen=True, eq=False)
+class TakenBack:
+    """A demonstration as it is kept: where the landmarks stood when the skill was taught."""
+
+    demonstration: Demonstration
+    carried: bool = False
+    """Landmarks were moved, so that it is not where it was drawn."""
+    muted: bool = False
+    """There is no way back from where it was drawn, so that nothing can be learned from it."""
+
+
+def taken_back(shown: Demonstration, among: Model) -> TakenBack:
+    """Undo what moved landmarks do to a demonstration that is shown among them.
+
+    The tube, bent as they bend it, then holds it where it was drawn. Where the map folds there is no such
+    place; the demonstration is kept as it was drawn.
+    """
+    if among.registration is None:
+        return TakenBack(shown)
+    places, misses = among.taken_back(shown.positions)
+    if misses.max() > LOST:
+        return TakenBack(shown, muted=True)
+    return TakenBack(replace(shown, positions=places), carried=True)
+
+
+def added(document: Document, shown: TakenBack) -> Document:
+    """Add a demonstration as it is kept."""
+    document = edits.add_demonstrations(document, [shown.demonstration])
+    return edits.mute_demonstration(document, len(document.demonstrations) - 1, shown.muted)
 
 
 def continued(part: Demonstration, cylinder: GeneralizedCylinder, station: int) -> Demonstration:

@@ -11,14 +11,14 @@ from typing import Final
 
 import numpy as np
 
-from app.document import Document, FloatArray, LandmarkKind, Settings
+from app.anchors import Anchor, landmark_of, same_anchors
+from app.document import Document, FloatArray, Settings
 from app.inverse import places_before
 from gc_core import (
     Constraint,
     Demonstration,
     GcError,
     GeneralizedCylinder,
-    Landmark,
     Reproduction,
     ThinPlateSpline,
     constrain,
@@ -34,25 +34,6 @@ BEGINNING: Final = 0.1
 """A start within this part of the tube may join where it lies [-]."""
 DEFAULT_RATIO: Final = 0.5
 """Without a start of one's own, the first reproduction begins this far off-centre."""
-
-
-@dataclass(frozen=True, eq=False)
-class Anchor:
-    """A landmark as it is: every position known."""
-
-    name: str
-    taught: FloatArray
-    """(3,) where it stood while the skill was taught [m]."""
-    now: FloatArray
-    """(3,) where it stands now [m]; the same object as ``taught`` unless it was moved."""
-    kind: LandmarkKind = "via"
-    turn: FloatArray | None = None
-    """(3,) roll, pitch, yaw since it was taught [rad]; None: it was not turned."""
-
-    @property
-    def moved(self) -> bool:
-        """Whether it stands elsewhere or is turned."""
-        return self.turn is not None or not (self.now is self.taught or np.array_equal(self.now, self.taught))
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,7 +176,7 @@ def _generalize(model: Model, former: Model, *, coarse: bool) -> Model:
     anchors = model.anchors
     unchanged = (
         model.taught is former.taught
-        and _same_anchors(anchors, former.anchors)
+        and same_anchors(anchors, former.anchors)
         and model.source.smoothing == former.source.smoothing
     )
     if unchanged and not former.problem and (coarse or not former.hasty):
@@ -209,31 +190,12 @@ def _generalize(model: Model, former: Model, *, coarse: bool) -> Model:
     if model.taught is None or not any(anchor.moved for anchor in anchors):
         return replace(model, cylinder=model.taught)
     registration = register(
-        [_landmark(anchor, anchor.taught, None) for anchor in anchors],
-        [_landmark(anchor, anchor.now, anchor.turn) for anchor in anchors],
+        [landmark_of(anchor, anchor.taught, None) for anchor in anchors],
+        [landmark_of(anchor, anchor.now, anchor.turn) for anchor in anchors],
         model.source.smoothing,
     )
     cylinder = generalize(model.taught, registration, repair=not coarse)
     return replace(model, registration=registration, cylinder=cylinder, hasty=coarse)
-
-
-def _landmark(anchor: Anchor, place: FloatArray, turn: FloatArray | None) -> Landmark:
-    """Make a landmark of the core; only objects are frames."""
-    orientation = quaternion(np.zeros(3) if turn is None else turn) if anchor.kind == "object" else None
-    return Landmark(place, orientation, anchor.name)
-
-
-def quaternion(turn: FloatArray) -> FloatArray:
-    """Turn roll, pitch, yaw (3,) [rad] about the fixed x, then y, then z axis into a quaternion (4,) wxyz."""
-    (cr, cp, cy), (sr, sp, sy) = np.cos(0.5 * turn), np.sin(0.5 * turn)
-    return np.array(
-        [
-            cr * cp * cy + sr * sp * sy,
-            sr * cp * cy - cr * sp * sy,
-            cr * sp * cy + sr * cp * sy,
-            cr * cp * sy - sr * sp * cy,
-        ]
-    )
 
 
 def _anchors(model: Model) -> tuple[Anchor, ...]:
@@ -302,14 +264,3 @@ def _starts(model: Model, cylinder: GeneralizedCylinder) -> tuple[FloatArray, ..
 
 def _same(one: tuple[object, ...], other: tuple[object, ...]) -> bool:
     return len(one) == len(other) and all(a is b for a, b in zip(one, other, strict=True))
-
-
-def _same_anchors(one: tuple[Anchor, ...], other: tuple[Anchor, ...]) -> bool:
-    return len(one) == len(other) and all(
-        a.name == b.name
-        and a.kind == b.kind
-        and a.turn is b.turn
-        and np.array_equal(a.taught, b.taught)
-        and np.array_equal(a.now, b.now)
-        for a, b in zip(one, other, strict=True)
-    )

@@ -3,7 +3,7 @@
 import numpy as np
 
 from app.arm.protocol import JointPath
-from app.handpull import Drawn
+from app.handpull import Drawn, TakenBack
 
 REACHED = 0.001
 """The arm plays a sample exactly when it comes this close [m]."""
@@ -17,8 +17,18 @@ def too_short(drawn: Drawn) -> str:
     )
 
 
-def demonstrated(drawn: Drawn, learned_from: int) -> str:
-    """A demonstration was kept."""
+def demonstrated(drawn: Drawn, learned_from: int, kept: TakenBack) -> str:
+    """A demonstration was kept, perhaps not where it was drawn."""
+    if kept.muted:
+        return (
+            "This demonstration is kept, but muted: where you drew it the tube is turned inside out, so it "
+            "cannot be taken back to where the landmarks stood. Put them back (Move) and show it again."
+        )
+    if kept.carried:
+        return (
+            f"That was a demonstration of {drawn.times[-1]:.1f} s. Landmarks are moved, so it is kept where "
+            "it would have been before (red line), and the tube takes it along to here."
+        )
     more = "Show it once more, a little differently."
     if learned_from >= 3:
         more = f"The tube holds {learned_from} now."

@@ -135,6 +135,10 @@ class Jaco:
             return None
         return Shortfall(distance, SHELL.outside(wanted) or self._obstacle(placed, wanted))
 
+    def unreachable(self, positions: npt.ArrayLike) -> str | None:
+        """Say why the worst of some places is out of reach."""
+        return SHELL.worst(path_of(positions))
+
     def close(self) -> None:
         """Give the solver back to the pool."""
         solver, self._solver = self._solver, None

@@ -88,6 +88,10 @@ class PlanarArm:
             return None
         return Shortfall(distance, SHELL.outside(wanted) or self._obstacle(placed, wanted))
 
+    def unreachable(self, positions: npt.ArrayLike) -> str | None:
+        """Say why the worst of some places is out of reach."""
+        return SHELL.worst(path_of(positions))
+
     def close(self) -> None:
         """Refuse to be used from now on."""
         self._closed = True

@@ -205,6 +205,26 @@ class Arm(Protocol):
         """
         ...
 
+    def unreachable(self, positions: FloatArray) -> str | None:
+        """Say at once, from the places alone, why a path is out of reach; `follow` knows more.
+
+        Parameters
+        ----------
+        positions : (K, 3) array
+            Wanted tool positions [m]; K >= 1.
+
+        Returns
+        -------
+        str or None
+            Of the worst one, for instance ``12 cm beyond reach``; no full stop. None says nothing.
+
+        Raises
+        ------
+        ArmInputError
+            If the argument has the wrong shape or is not finite.
+        """
+        ...
+
     def close(self) -> None:
         """Give the arm back; it must not be used afterwards. Closing twice is allowed."""
         ...

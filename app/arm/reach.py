@@ -60,6 +60,12 @@ class Shell:
         excess, words = max(reasons)
         return words if excess > 0.0 else None
 
+    def worst(self, targets: FloatArray) -> str | None:
+        """Say why the target of several (K, 3) that is farthest outside lies there; None: all lie inside."""
+        radii = np.linalg.norm(targets - np.asarray(self.shoulder), axis=1)
+        excess = np.maximum(np.maximum(radii - self.outer, self.inner - radii), self.table - targets[:, 2])
+        return self.outside(targets[int(np.argmax(excess))])
+
 
 def length_in_words(metres: float) -> str:
     """Write a length as a person would say it: ``8 mm``, ``12 cm``, ``1.5 m``."""

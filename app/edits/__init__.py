@@ -7,6 +7,8 @@ makes no sense raises an `EditError` that says what to do instead.
 
 from app.edits.checks import LARGEST_COORDINATE, EditError, point
 from app.edits.landmarks import (
+    KIND_NAMES,
+    MOST_LANDMARKS,
     add_landmark,
     move_landmark,
     put_landmark_back,
@@ -39,7 +41,9 @@ from app.edits.skill import (
 )
 
 __all__ = [
+    "KIND_NAMES",
     "LARGEST_COORDINATE",
+    "MOST_LANDMARKS",
     "EditError",
     "add_demonstrations",
     "add_landmark",

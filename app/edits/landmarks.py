@@ -9,12 +9,12 @@ import numpy as np
 from app.document import LANDMARK_KINDS, Document, FloatArray, LandmarkKind, Place
 from app.edits.checks import EditError, next_number, one_of, point, without
 
-MOST: Final = 12
+MOST_LANDMARKS: Final = 12
 """Landmarks of one skill."""
 LONGEST: Final = 40
 """Of a landmark's name [letters]."""
 STRONGEST_SMOOTHING: Final = 1.0
-NAMES: Final[Mapping[LandmarkKind, str]] = {
+KIND_NAMES: Final[Mapping[LandmarkKind, str]] = {
     "start": "start",
     "goal": "goal",
     "via": "way point",
@@ -43,7 +43,7 @@ def add_landmark(document: Document, kind: LandmarkKind, place: Place | None = N
     Raises
     ------
     EditError
-        If there is one already, if there are `MOST` landmarks, or if it has no place.
+        If there is one already, if there are `MOST_LANDMARKS` landmarks, or if it has no place.
     """
     one_of("kind of landmark", kind, LANDMARK_KINDS)
     same = [other.name for other in document.landmarks if other.kind == kind]
@@ -52,10 +52,10 @@ def add_landmark(document: Document, kind: LandmarkKind, place: Place | None = N
             raise EditError(f"There is a {kind} already: {same[0]}. Move that one.")
         name = kind
     else:
-        name = f"{NAMES[kind]} {next_number(NAMES[kind], same)}"
+        name = f"{KIND_NAMES[kind]} {next_number(KIND_NAMES[kind], same)}"
         if place is None or place.taught is None:
             raise EditError("A landmark needs a place. Click where it stands.")
-    if len(document.landmarks) >= MOST:
+    if len(document.landmarks) >= MOST_LANDMARKS:
         raise EditError("There are twelve landmarks already. Remove one before you add another.")
     taken = {other.name for other in document.landmarks}
     while name in taken:  # somebody renamed another one to this

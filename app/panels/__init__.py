@@ -19,8 +19,10 @@ from app.panels.kinds import KindsPanel
 from app.panels.landmarks import LandmarksPanel
 from app.panels.lesson import LessonPanel
 from app.panels.offer import OfferPanel
+from app.panels.placing import PlacingPanel
 from app.panels.rules import RulesPanel
 from app.panels.slice import SlicePanel
+from app.panels.smoothing import SmoothingPanel
 from app.panels.starts import StartsPanel
 from app.panels.status import StatusPanel
 from app.panels.timeline import TimelinePanel
@@ -85,10 +87,14 @@ def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]
     with tabs.add_tab("Try", viser.Icon.PLAYER_PLAY):
         starts = StartsPanel(gui, actions)
     with tabs.add_tab("Move", viser.Icon.MAP_PIN):
-        landmarks = LandmarksPanel(gui, actions)
+        move: tuple[Panel, ...] = (
+            LandmarksPanel(gui, actions),
+            PlacingPanel(gui, actions),
+            SmoothingPanel(gui, actions),
+        )
     with tabs.add_tab("Fix", viser.Icon.TOOL):
         rules = RulesPanel(gui, actions)
-    return (*header, *teach, starts, landmarks, rules)
+    return (*header, *teach, starts, *move, rules)
 
 
 def _side(gui: viser.GuiApi, actions: Actions) -> tuple[Panel, ...]:

@@ -5,8 +5,9 @@ from typing import Final
 
 import numpy as np
 
+from app import bending
 from app.document import FloatArray
-from app.model import Anchor, Model
+from app.model import Model
 
 THINNEST: Final = 0.03
 """Demonstrations thinner than this, as a part of their breadth, were drawn in one plane."""
@@ -29,8 +30,7 @@ def note(text: str, *, strong: bool = False, color: str = "inherit") -> str:
 
 def cm(length: float) -> str:
     """A length [m] in centimetres: one decimal below 10 cm."""
-    value = 100.0 * length
-    return f"{value:.1f} cm" if abs(value) < 9.95 else f"{value:.0f} cm"
+    return bending.length(length)
 
 
 def volume(size: float) -> str:
@@ -51,9 +51,9 @@ def count(number: int, noun: str) -> str:
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
-def in_cm(position: FloatArray) -> tuple[float, float, float]:
-    """(3,) position [m] in centimetres with one decimal, as number fields show it."""
-    x, y, z = (round(100.0 * float(value), 1) + 0.0 for value in position)
+def rounded(values: FloatArray) -> tuple[float, float, float]:
+    """Three numbers with one decimal, as number fields show them."""
+    x, y, z = (round(float(value), 1) + 0.0 for value in values)
     return x, y, z
 
 
@@ -65,32 +65,6 @@ def ratio(eta: float) -> str:
     if percent <= 100.5:
         return f"{percent:.0f} % of the way from the middle line to the edge"
     return f"outside the tube, at {percent:.0f} % of the way to its edge"
-
-
-def distance(anchor: Anchor) -> float:
-    """How far a landmark was moved [m]."""
-    return float(np.linalg.norm(anchor.now - anchor.taught))
-
-
-def moved(anchor: Anchor) -> str:
-    """Say whether a landmark was moved, and how far."""
-    length = distance(anchor)
-    return f"moved by {cm(length)}" if length > 5e-4 else "where it was taught"
-
-
-def bending(model: Model) -> str:
-    """Say how the tube follows its landmarks."""
-    anchors = model.anchors
-    names = [anchor.name for anchor in anchors if distance(anchor) > 5e-4]
-    if not names:
-        return "Nothing was moved: the tube is as it was taught. Drag the goal, or type where it should be."
-    listed = " and the ".join(names) if len(names) < 3 else ", ".join(names[:-1]) + " and " + names[-1]
-    how = (
-        ""
-        if model.registration is None
-        else f" How the tube follows (generalization): {model.registration.case}."
-    )
-    return f"You moved the {listed}; nothing was taught again.{how}"
 
 
 def drawn_flat(model: Model) -> bool:

@@ -12,7 +12,7 @@ from app.scene.nodes import Line, Mesh
 from app.scene.playhead import station_at, time_of
 from app.scene.polyline import along, evenly, nearest_to_ray, segments
 from app.scene.pulls import checked_point
-from app.scene.style import DIRECTRIX, SECTION, THICK, TUBE, TUBE_OPACITY
+from app.scene.style import DIRECTRIX, FORMER_OPACITY, SECTION, THICK, TUBE, TUBE_OPACITY
 from app.store import State
 from gc_core import GeneralizedCylinder
 
@@ -48,6 +48,27 @@ class Tube:
             self._mesh.hide()
             return
         self._mesh.show(*tube_mesh(rings(cylinder, size)))
+
+
+class FormerTube:
+    """``/former``: the tube as it was taught, faint, while landmarks are moved; never interactive."""
+
+    def __init__(self, api: viser.SceneApi) -> None:
+        self._mesh = Mesh(api, "/former", color=TUBE, opacity=FORMER_OPACITY, side="double")
+        self._mesh.show(*_NOTHING)  # early, as `Tube`
+        self._mesh.hide()
+        self._drawn: GeneralizedCylinder | None = None
+
+    def draw(self, state: State) -> None:
+        """Show or hide it; it is made anew only at rest, when something else was taught."""
+        taught = state.model.taught
+        if state.model.registration is None or taught is None or not state.view.show_tube:
+            self._mesh.hide()
+        elif taught is self._drawn or (self._drawn is not None and state.dragging):
+            self._mesh.reveal()
+        else:
+            self._drawn = taught
+            self._mesh.show(*tube_mesh(rings(taught, WHILE_DRAGGING)))
 
 
 def rings(cylinder: GeneralizedCylinder, size: tuple[int, int]) -> FloatArray:

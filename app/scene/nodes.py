@@ -79,6 +79,11 @@ class Mesh:
         self._vertices, self._faces = vertices, faces
         return self._handle
 
+    def reveal(self) -> None:
+        """Show it as it was, if it was hidden."""
+        if self._handle is not None and not self._visible:
+            self._visible = self._handle.visible = True
+
     def hide(self) -> None:
         """Take it out of sight."""
         if self._handle is not None and self._visible:

@@ -22,6 +22,8 @@ from app.document import FloatArray
 
 FARTHEST: Final = 10.0
 """No pointer is farther from the base than this [m]."""
+LEVEL: Final = 0.15
+"""Seen flatter than this, a height says nothing about depth: sine of the angle [-]."""
 
 Event: TypeAlias = viser.SceneNodeDragEvent[Any]
 
@@ -61,6 +63,7 @@ def bind_pull(
     *,
     ball: bool = False,
     aside: bool = False,
+    level: bool = False,
 ) -> None:
     """Let a node be pulled: freely, and with Shift up and down.
 
@@ -76,8 +79,10 @@ def bind_pull(
         Whether it is pulled at its origin, wherever it was hit.
     aside
         Whether the right button pulls too.
+    level
+        Whether the pointer is drawn along the line of sight to the height of what was grabbed.
     """
-    pull = _Pull(handle, actions, clock, ball)
+    pull = _Pull(handle, actions, clock, ball or level, level)
     for button in ("left", "right") if aside else ("left",):
         for modifier in (None, "shift"):
             handle.on_drag(button, modifier=modifier)(pull.callback())
@@ -102,12 +107,37 @@ def depth_ratio(camera: FloatArray, look_at: FloatArray, hit: FloatArray, origin
     return ratio if 0.5 < ratio < 2.0 else 1.0
 
 
+def levelled(camera: FloatArray, pointer: FloatArray, height: float) -> FloatArray:
+    """Find where the line of sight to a pointer meets a height; the pointer itself where it hardly does.
+
+    Parameters
+    ----------
+    camera, pointer : (3,) array
+        [m].
+    height : float
+        [m].
+
+    Returns
+    -------
+    (3,) array
+        [m].
+    """
+    sight = pointer - camera
+    down = camera[2] - height
+    if abs(down) < LEVEL * float(np.linalg.norm(sight)) or abs(sight[2]) < 1e-9:
+        return pointer
+    share = -down / sight[2]
+    return camera + share * sight if 0.3 < share < 3.0 else pointer
+
+
 class _Pull:
     """The pulls on one node."""
 
-    def __init__(self, handle: Pullable, actions: Actions, clock: Callable[[], float], ball: bool) -> None:
+    def __init__(
+        self, handle: Pullable, actions: Actions, clock: Callable[[], float], ball: bool, level: bool
+    ) -> None:
         self._handle, self._actions, self._clock = handle, actions, clock
-        self._ball = ball
+        self._ball, self._level = ball, level
         self._ratio = 1.0
         self._last: Drag | None = None
 
@@ -138,6 +168,8 @@ class _Pull:
                 self._ratio = depth_ratio(camera, look_at, grabbed, self._handle.position)
             grabbed = camera + self._ratio * (grabbed - camera)
             pointer = camera + self._ratio * (pointer - camera)
+            if self._level:
+                pointer = levelled(camera, pointer, float(grabbed[2]))
         return Drag(
             node=self._handle.name,
             phase=event.phase,

@@ -9,11 +9,12 @@ from app.actions import Actions
 from app.arm.protocol import Arm
 from app.document import FloatArray
 from app.scene.arm import ArmFrames
-from app.scene.cylinder import Directrix, Section, Tube
+from app.scene.cylinder import Directrix, FormerTube, Section, Tube
 from app.scene.demonstrations import Demonstrations
 from app.scene.drop import DropLine
 from app.scene.hand import HandBall, Recording, Shortage
 from app.scene.landmarks import Landmarks
+from app.scene.placing import Placing
 from app.scene.pulls import checked_point
 from app.scene.reproductions import Reproductions, Starts
 from app.scene.view import Eye
@@ -51,6 +52,7 @@ class Scene:
         self._eye = Eye()
         self._parts: tuple[Part, ...] = (
             Tube(api),  # first, see there
+            FormerTube(api),
             ArmFrames(api, arm),
             Directrix(api, actions),
             Section(api),
@@ -62,6 +64,7 @@ class Scene:
             HandBall(api, actions, clock, self._eye),
             Shortage(api),
             DropLine(api),
+            Placing(api, actions),
         )
 
     def draw(self, state: State) -> None:

@@ -19,6 +19,8 @@ REFINED: Final[Color] = (26, 158, 115)
 FREE: Final[Color] = (120, 126, 136)
 LANDMARK: Final[Color] = (242, 186, 26)
 LANDMARK_GHOST: Final[Color] = (247, 222, 158)
+OBJECT_AXES: Final[tuple[Color, Color, Color]] = ((200, 40, 40), (30, 140, 60), (40, 80, 200))
+"""Of an object's own x, y and z."""
 HAND: Final[Color] = (92, 104, 122)
 WARNING: Final[Color] = (240, 140, 0)
 WARNING_GHOST: Final[Color] = (250, 205, 140)
@@ -30,6 +32,8 @@ CELL: Final[Color] = (214, 219, 226)
 SECTION_OF_TABLE: Final[Color] = (192, 199, 208)
 
 TUBE_OPACITY: Final = 0.32
+FORMER_OPACITY: Final = 0.12
+"""Of the tube as it was taught, while landmarks are moved."""
 
 THIN: Final = 2.0
 THICK: Final = 4.0
@@ -40,6 +44,9 @@ START_RADIUS: Final = 0.016
 START_RADIUS_IN_TRY: Final = 0.028
 """Larger than the hand, which rests in the same place, so that it is what one grabs."""
 LANDMARK_RADIUS: Final = 0.030
+VIA_RADIUS: Final = 0.018
+OBJECT_HALF: Final = 0.030
+"""Half the side of an object's box, and the radius of an obstacle [m]."""
 GHOST_RADIUS: Final = 0.014
 PICK_RADIUS: Final = 0.010
 """How near to a line the pointer has to be [m]."""

@@ -31,7 +31,8 @@ NOTHING_THERE = (
     "/tube",
     "/directrix",
     "/landmarks/",
-    "/landmarks/goal/turn",
+    "/turns/goal",
+    "/turns/moon",
     "/landmarks/cup/stem",
     "/",
     "",
@@ -129,13 +130,13 @@ def test_the_handle_of_an_object_turns_it_as_far_as_the_pointer_goes_around_it(
     document = furnished()
     cup = document.landmarks[2]
     arm = np.array([0.08, 0.02, 0.0])
-    pull = gesture.pull_on("/landmarks/cup/turn", cup.taught + arm, learn(document), WIDTH)
+    pull = gesture.pull_on("/turns/cup", cup.taught + arm, learn(document), WIDTH)
     cos, sin = np.cos(angle), np.sin(angle)
     there = stretch * np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]]) @ arm
 
-    turned = pull.apply(document, there + [0.0, 0.0, height] - arm).landmarks[2]
+    turned = pull.apply(document, there + np.array([0.0, 0.0, height]) - arm).landmarks[2]
 
-    wanted = cup.turn + [0.0, 0.0, angle]
+    wanted = cup.turn + np.array([0.0, 0.0, angle])
     np.testing.assert_allclose(np.exp(1j * turned.turn), np.exp(1j * wanted), atol=1e-9)
     np.testing.assert_array_equal(turned.taught, cup.taught)
 

@@ -196,6 +196,15 @@ def test_what_cannot_be_reached_gets_a_reason(
     assert shortfall.distance > HERE
 
 
+def test_what_a_path_wants_beyond_reach_is_said_of_its_worst_place(arm: Arm) -> None:
+    near = circle(arm, 20)
+    away = np.array([[0.0, -5.0, 0.3], [0.0, -9.0, 0.3]])
+
+    assert arm.unreachable(near) is None
+    assert arm.unreachable(np.vstack([near, away])) == arm.unreachable(away[1:])
+    assert "beyond reach" in arm.unreachable(away)
+
+
 def test_an_arm_that_still_moves_says_so(arm: Arm) -> None:
     shortfall = arm.shortfall(arm.home, tip(arm, arm.home) + np.array([0.1, 0.05, 0.1]))
 

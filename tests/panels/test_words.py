@@ -7,10 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app import edits
+from app import bending, edits
 from app.document import Document, Shown
 from app.panels import words
 from app.panels.lesson import first_minute, page, tried
+from app.panels.smoothing import facts
 from app.panels.status import status
 from app.store import Hand
 from gc_core import Demonstration
@@ -47,10 +48,10 @@ def test_every_number_of_demonstrations_has_its_sentence() -> None:
 
 
 def test_the_moved_landmark_and_the_case_are_named() -> None:
-    moved = edits.move_landmark(taught(), "goal", np.array([0.0, -0.4, 0.2]))
+    model = state_of(edits.move_landmark(taught(), "goal", np.array([0.0, -0.4, 0.2]))).model
 
-    assert "goal" in words.bending(state_of(moved).model)
-    assert "two landmarks" in words.bending(state_of(moved).model)
+    assert bending.how(model) == "The tube is stretched between the start and the goal."
+    assert "two landmarks" in facts(model)
 
 
 def test_recording_is_said_before_anything_else() -> None:

@@ -27,7 +27,7 @@ NAMES = {
     "/section": "LineSegmentsMessage",
     "/tube": "MeshMessage",
     "/landmarks/start": "MeshMessage",
-    "/landmarks/goal": "IcosphereMessage",
+    "/landmarks/goal": "MeshMessage",
     "/arm/upper": "FrameMessage",
     "/arm/lower/mesh": "MeshMessage",
     "/table": "BoxMessage",
