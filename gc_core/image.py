@@ -12,9 +12,9 @@ import numpy as np
 from gc_core.arrays import FloatArray, IntArray, read_only, remembered
 from gc_core.cylinder import GeneralizedCylinder
 from gc_core.frames import arc_length, rotation_minimizing_frames
-from gc_core.radius import loop_radii, slope_limited, widened_to_hold
+from gc_core.radius import GREATEST_SLOPE, loop_radii, slope_limited, widened_to_hold
 from gc_core.registration import ThinPlateSpline, map_columns
-from gc_core.surface import section_surface
+from gc_core.surface import boundary_advance, section_surface
 
 ROUNDS = 4
 """Steps along a line towards the plane that should cut it."""
@@ -63,9 +63,10 @@ class Image:
             loop_radii(local[:, :n_rays], n_rays), self.cylinder.diagnostics.minimum_half_width
         )
         points = local[:, n_rays:]
-        step = np.diff(self.directrix, axis=0)
-        length = np.sqrt(np.einsum("ij,ij->i", step, step))[:, None]
-        radii = slope_limited(widened_to_hold(radii, points), length)
+        radii = widened_to_hold(radii, points)
+        # A tube that is only moved must not change: what it had is allowed, in proportion to the step.
+        had = _taught_slopes(self.cylinder) * np.diff(arc_length(self.directrix))[:, None]
+        radii = slope_limited(radii, np.maximum(boundary_advance(self.directrix, frames, radii), had))
         return frames, radii, self.directrix[:, None] + points @ np.swapaxes(frames[:, :, 1:], 1, 2)
 
     def surface(self, normals: FloatArray) -> FloatArray:
@@ -100,6 +101,13 @@ def _lines(cylinder: GeneralizedCylinder) -> FloatArray:
     """Lines (3, N, M + n + 1) of the boundary, of the effective points and the directrix [m]."""
     together = (cylinder.surface(), cylinder.effective_points, cylinder.directrix[:, None])
     return read_only(np.moveaxis(np.concatenate(together, axis=1), 2, 0))
+
+
+@remembered
+def _taught_slopes(cylinder: GeneralizedCylinder) -> FloatArray:
+    """Changes of radius (N - 1, M) per length, by the greatest that is allowed: 1 at most [-]."""
+    slopes = np.abs(np.diff(cylinder.radii, axis=0)) / np.diff(cylinder.arc_length)[:, None]
+    return read_only(np.minimum(slopes / GREATEST_SLOPE, 1.0))
 
 
 def _cut_again(lines: FloatArray, directrix: FloatArray, frames: FloatArray) -> FloatArray:

@@ -43,8 +43,6 @@ def crossing_stations(surface: FloatArray, normals: FloatArray) -> BoolArray:
 def gently_changing(directrix: FloatArray, frames: FloatArray, radii: FloatArray) -> FloatArray:
     """Widen sections until the boundary changes slowly along the curve, also on the inside of bends.
 
-    There the boundary advances less than the directrix, and a run would leap if the radius changed as fast.
-
     Parameters
     ----------
     directrix : (N, 3) array
@@ -59,6 +57,29 @@ def gently_changing(directrix: FloatArray, frames: FloatArray, radii: FloatArray
     (N, M) array
         Nowhere less than `radii`; neighbours differ by at most `GREATEST_SLOPE` of the advance [m].
     """
+    return slope_limited(radii, boundary_advance(directrix, frames, radii))
+
+
+def boundary_advance(directrix: FloatArray, frames: FloatArray, radii: FloatArray) -> FloatArray:
+    """How far the boundary gets on from section to section.
+
+    On the inside of bends it gets on less than the directrix, and a run would leap if the radius changed
+    as fast as elsewhere.
+
+    Parameters
+    ----------
+    directrix : (N, 3) array
+        Centres [m].
+    frames : (N, 3, 3) array
+        Columns: section normal, N, B.
+    radii : (N, M) array
+        [m].
+
+    Returns
+    -------
+    (N - 1, M) array
+        From `SHORTEST_ADVANCE` of the directrix's step to the whole of it [m].
+    """
     step = np.diff(directrix, axis=0)
     length = np.sqrt(np.einsum("ij,ij->i", step, step))[:, None]
     angles = vertex_angles(radii.shape[1])
@@ -69,4 +90,4 @@ def gently_changing(directrix: FloatArray, frames: FloatArray, radii: FloatArray
     after = after + radii[1:] * (np.einsum("ij,ijk->ik", normals[:-1], axes[1:]) @ circle)
     before = np.einsum("ij,ij->i", step, normals[1:])[:, None]
     before = before - radii[:-1] * (np.einsum("ij,ijk->ik", normals[1:], axes[:-1]) @ circle)
-    return slope_limited(radii, np.clip(np.minimum(after, before), SHORTEST_ADVANCE * length, length))
+    return np.clip(np.minimum(after, before), SHORTEST_ADVANCE * length, length)
