@@ -48,10 +48,10 @@ def effective_points(lines: Lines, normals: FloatArray) -> tuple[FloatArray, Boo
     """Cut every demonstration with every section plane.
 
     Among the crossings in the direction of travel, the one nearest in arc length to the place that
-    corresponds by the alignment is taken. A demonstration that begins ahead of the plane crosses it at its
-    beginning, one that ends behind it at its end: so that a crossing does not jump when the plane passes an
-    end. Where there is nothing near, the nearest approach is taken. All three are projected onto the plane
-    and reported.
+    corresponds by the alignment is taken. A demonstration that begins on the plane or ahead of it crosses it
+    at its beginning, one that ends on it or behind it at its end: so that a crossing does not jump when the
+    plane passes an end. Where there is nothing near, the nearest approach is taken. All three are projected
+    onto the plane, and reported if that moves them.
 
     Parameters
     ----------
@@ -68,9 +68,9 @@ def effective_points(lines: Lines, normals: FloatArray) -> tuple[FloatArray, Boo
         Where a demonstration does not cross the plane near its station.
     """
     offsets = np.einsum("ij,ij->i", lines.directrix, normals)
-    behind = normals @ lines.path[lines.knots].T <= offsets[:, None]
-    points, away = _ends(lines, behind)
-    station, knot = _nearest_crossings(lines, behind, away)
+    heights = normals @ lines.path[lines.knots].T - offsets[:, None]
+    points, away = _ends(lines, heights)
+    station, knot = _nearest_crossings(lines, heights <= 0.0, away)
     whose = lines.owner[knot]
     low, high = lines.knots[knot], lines.knots[knot + 1]
     points[station, whose] = _refined(lines.path, low, high, normals[station], offsets[station])
@@ -124,14 +124,17 @@ def lines_of(demonstrations: tuple[Trimmed, ...], alignment: Alignment) -> Lines
     )
 
 
-def _ends(lines: Lines, behind: BoolArray) -> tuple[FloatArray, FloatArray]:
-    """End (N, n, 3) that lies on the wrong side of a plane, and its distance (N, n) along the demonstration.
+def _ends(lines: Lines, heights: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """End (N, n, 3) that does not lie beyond a plane, and its distance (N, n) along the demonstration.
 
-    The distance is from the place that corresponds, infinite where no end is on the wrong side. `behind`
-    (N, K) tells which knots lie behind which plane; the ends are knots, and are judged as crossings are.
+    The distance is from the place that corresponds, infinite where both ends lie beyond. `heights` (N, K) are
+    those of the knots over the planes. An end on a plane counts: where demonstrations end in one place,
+    rounding would else choose between it and a crossing before.
     """
     begins = np.flatnonzero(np.diff(lines.owner, prepend=-1))
-    late, early = ~behind[:, begins], behind[:, np.append(begins[1:], len(lines.owner)) - 1]
+    on_plane = ON_PLANE * lines.lengths
+    late = heights[:, begins] >= -on_plane
+    early = heights[:, np.append(begins[1:], len(lines.owner)) - 1] <= on_plane
     from_first = np.where(late, lines.wanted.T, np.inf)
     from_last = np.where(early, lines.lengths - lines.wanted.T, np.inf)
     first, last = lines.path[lines.ends[:, 0]], lines.path[lines.ends[:, 1]]

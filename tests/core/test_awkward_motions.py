@@ -11,7 +11,7 @@ from gc_core import Demonstration, encode, generalize, register, reproduce
 from gc_core.alignment import ALIGNMENTS
 from gc_core.arrays import FloatArray
 from gc_core.sections import SECTIONS
-from tests.core.shapes import bundle
+from tests.core.shapes import bundle, moved, rotation
 from tests.core.test_encode import ratios_to_polygons
 
 ASIDE = (0.0, 0.02, 0.05)
@@ -86,3 +86,24 @@ def test_awkward_motions_are_learned_run_and_bent_without_a_warning(
     assert ratios_to_polygons(cylinder).max() <= 1.0 + 1e-9 + rounding
     assert (np.diff(cylinder.times) > 0.0).all()
     assert all(np.isfinite(values).all() for values in (cylinder.surface(), run.positions, bent.surface()))
+
+
+def meeting() -> list[Demonstration]:
+    """All end in one place; the first two swing round to it, from beyond the goal and from before it."""
+    u = np.linspace(0.0, 1.0, 200)
+    late = np.clip(5.0 * u - 4.0, 0.0, 1.0)
+    swing = np.sin(np.pi * late)
+    shown: list[Demonstration] = []
+    for beyond, aside in ((0.01, 0.03), (-0.01, 0.03), (0.0, -0.06)):
+        along = 0.5 * np.minimum(1.25 * u, 1.0) + beyond * swing
+        across = aside * ((1.0 - late) * np.sin(np.pi * u) + swing)
+        shown.append(Demonstration(3.0 * u, np.stack((along, across, 0.0 * u), axis=1)))
+    return shown
+
+
+@pytest.mark.parametrize("turn", range(1, 5))
+def test_where_all_demonstrations_end_in_one_place_rounding_does_not_choose_the_section(turn: int) -> None:
+    linear, shift = rotation(turn), np.array([0.3, -0.2, 0.5])
+    tube, turned = encode(meeting()), encode(moved(meeting(), linear, shift))
+
+    np.testing.assert_allclose(turned.surface(), tube.surface() @ linear.T + shift, atol=1e-9)

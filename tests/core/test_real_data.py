@@ -15,6 +15,7 @@ from gc_core import GeneralizedCylinder, encode, generalize, register, reproduce
 from gc_core.alignment import ALIGNMENTS
 from gc_core.radius import GREATEST_SLOPE
 from gc_core.sections import SECTIONS
+from tests.core.shapes import moved, rotation
 from tests.helpers_data import ALL_SETS, POSE_SETS, load
 from tests.measurements import geometry, runs
 from tests.measurements.sections import CUTTING, STATIONS, TIGHT, TIGHT_ANGLES, Measured, measure
@@ -174,3 +175,12 @@ def test_few_stations_cut_a_neighbour(name: str, section: str, align_by: str) ->
     found = measured(name, section, align_by)
 
     assert max(found.cutting, found.overlapping) <= CUTTING * STATIONS
+
+
+@every_set
+def test_a_moved_set_has_the_moved_tube(name: str) -> None:
+    turn, shift = rotation(0), np.array([0.3, -0.2, 0.5])
+    surface = encode(load(name), section="hull").surface()
+    turned = encode(moved(load(name), turn, shift), section="hull").surface()
+
+    np.testing.assert_allclose(turned, surface @ turn.T + shift, atol=1e-9)
