@@ -19,8 +19,11 @@ CLOSED = 0.4
 SHARP = 0.5
 """Only paths that turn by more than 60 deg (this cosine) from step to step are searched [-]."""
 
+FINEST = 200
+"""Of more stations than twice this, turns are seen over several: a rounded hook turns little at each."""
+
 BESIDE = 2
-"""How a path comes and goes is seen over this many stations."""
+"""How a path comes and goes is seen over this many of these steps."""
 
 MOST_HOOKS = 8
 """Hooks that are taken out of one path."""
@@ -68,10 +71,16 @@ def without_hooks(path: FloatArray, grid: FloatArray, places: FloatArray) -> tup
 
 def _turns_sharply(path: FloatArray) -> bool:
     """Tell whether a path (n, 3) of even steps turns by more than 60 deg at one of its points."""
-    step = np.diff(path, axis=0)
+    stride = _stride(path)
+    step = path[stride:] - path[:-stride]
     size = np.sqrt(np.einsum("ij,ij->i", step, step))
-    cosine = np.einsum("ij,ij->i", step[1:], step[:-1])
-    return bool((cosine < SHARP * size[1:] * size[:-1]).any())
+    cosine = np.einsum("ij,ij->i", step[stride:], step[:-stride])
+    return bool((cosine < SHARP * size[stride:] * size[:-stride]).any())
+
+
+def _stride(path: FloatArray) -> int:
+    """Number of the steps between stations (N, 3) that make one over which turns are seen."""
+    return max(len(path) // FINEST, 1)
 
 
 def _worst_hook(path: FloatArray, longest: float) -> tuple[int, int]:
@@ -79,8 +88,9 @@ def _worst_hook(path: FloatArray, longest: float) -> tuple[int, int]:
     gone = arc_length(path)
     worst, best = 0.0, (0, 0)
     index = np.arange(len(path))
-    come = path - path[np.maximum(index - BESIDE, 0)]
-    go = path[np.minimum(index + BESIDE, len(path) - 1)] - path
+    beside = BESIDE * _stride(path)
+    come = path - path[np.maximum(index - beside, 0)]
+    go = path[np.minimum(index + beside, len(path) - 1)] - path
     furthest = np.searchsorted(gone, gone + longest, side="right") - index
     for lag in range(2, int(furthest.max())):
         length = gone[lag:] - gone[:-lag]

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gc_core import Demonstration, GeneralizedCylinder, Landmark, encode, generalize, register, reproduce
+from gc_core.arrays import FloatArray
 from gc_core.frames import tangents
 from gc_core.sections import SECTIONS
 from tests.core.shapes import bundle, line, moved, rotation, seeds
@@ -159,6 +160,35 @@ def test_a_small_hook_of_the_hand_is_left_out_of_the_directrix(align_by: str) ->
     assert not cylinder.diagnostics.smoothed[10:].any()
     assert not cylinder.diagnostics.crossing.any()
     np.testing.assert_allclose(cylinder.directrix[[0, -1]], [[0.0, 0.0, 0.0], [0.5, 0.0, 0.0]], atol=1e-12)
+
+
+def rounded_hook(radius: float, back: float) -> FloatArray:
+    """A straight motion that turns round, goes back a little and turns round again."""
+    turn = np.linspace(0.0, np.pi, 200)
+    sine, rise = radius * np.sin(turn), radius * (1.0 - np.cos(turn))
+    along = np.concatenate(
+        (
+            np.linspace(0.0, 0.25, 1500),
+            0.25 + sine[1:],
+            0.25 - np.linspace(0.0, back, 200)[1:],
+            0.25 - back - sine[1:],
+            np.linspace(0.25 - back, 0.5, 1500)[1:],
+        )
+    )
+    aside = np.concatenate(
+        (np.zeros(1500), rise[1:], np.full(199, rise[-1]), rise[-1] + rise[1:], np.full(1499, 2.0 * rise[-1]))
+    )
+    return np.stack((along, aside, 0.0 * along), axis=1)
+
+
+@pytest.mark.parametrize("stations", [200, 500, 1000, 2000])
+def test_a_rounded_hook_is_left_out_however_many_stations_there_are(stations: int) -> None:
+    path, side = rounded_hook(0.001, 0.004), np.array([0.0, 0.0, 0.02])
+    shown = [Demonstration(0.001 * np.arange(len(path)), path + shift) for shift in (side, -side)]
+    cylinder = encode(shown, stations=stations, align_by="arc_length")
+
+    assert cylinder.diagnostics.smoothed.any()
+    assert cylinder.diagnostics.crossing.sum() <= 2
 
 
 def test_a_long_way_back_stays_in_the_directrix() -> None:
