@@ -73,7 +73,8 @@ class Demonstration:
             raise ShapeError(f"{what}: times", f"({len(positions)},), one per position,", times.shape)
         if len(times) < 2:
             raise TooFewSamplesError(what, len(times))
-        _check_ranges(what, times, positions)
+        check_places(what, positions)
+        _check_clock(what, times)
         check_times(what, times)
         extent = _extent(positions)
         if extent < SMALLEST_MOTION:
@@ -225,13 +226,17 @@ def _telling_samples(positions: FloatArray, first: int, last: int) -> IntArray:
     return np.unique(np.concatenate((begins, inner[np.arange(len(begins)), furthest], [last])))
 
 
-def _check_ranges(what: str, times: FloatArray, positions: FloatArray) -> None:
-    """Refuse what is in other units than metres and seconds by orders of magnitude."""
-    if np.abs(positions).max() > FARTHEST:
+def check_places(what: str, positions: FloatArray) -> None:
+    """Refuse positions (T, 3) that cannot be metres by orders of magnitude, naming the sample."""
+    if np.abs(positions).max(initial=0.0) > FARTHEST:
         far = np.flatnonzero((np.abs(positions) > FARTHEST).any(axis=1))
         # The largest coordinate instead of the length, whose square may not be a number any more.
         distance = float(np.abs(positions[far[0]]).max())
         raise TooFarError(what, int(far[0]), distance, FARTHEST)
+
+
+def _check_clock(what: str, times: FloatArray) -> None:
+    """Refuse times (T,) that cannot be seconds by orders of magnitude, naming the sample."""
     late = np.flatnonzero(np.abs(times) > LATEST)
     if late.size:
         raise TooLateError(what, int(late[0]), float(times[late[0]]), LATEST)

@@ -11,7 +11,7 @@ import numpy as np
 from gc_core.alignment import Alignment, align, majority_gripper, mean_orientations
 from gc_core.arrays import BoolArray, FloatArray, finite
 from gc_core.cylinder import GeneralizedCylinder
-from gc_core.demonstration import Demonstration, Trimmed, trim
+from gc_core.demonstration import FARTHEST, Demonstration, Trimmed, check_places, trim
 from gc_core.diagnostics import Diagnostics
 from gc_core.errors import (
     InvalidSettingError,
@@ -40,6 +40,9 @@ HULL_ANGLES = 128
 
 HALF_WIDTH = 0.001
 """Least distance of the boundary from the directrix, where demonstrations meet [m]."""
+
+SMALLEST_HALF_WIDTH = 1e-9
+"""Below this, squares of half-widths are lost beside those of the sections [m]."""
 
 SINGLE_HALF_WIDTH = 0.02
 """Radius of the tube around a single demonstration [m]."""
@@ -98,7 +101,7 @@ def encode(
         If their mean does not move.
     NotADemonstrationError
         If something else is among them.
-    UnknownOptionError, InvalidSettingError, ShapeError, NotFiniteError, TooFewSamplesError
+    UnknownOptionError, InvalidSettingError, ShapeError, NotFiniteError, TooFewSamplesError, TooFarError
         If an option is none of those above.
 
     References
@@ -196,8 +199,9 @@ def _checked(
         raise UnknownOptionError("section", section, SECTIONS)
     if angles is None:
         angles = HULL_ANGLES if section == "hull" else ANGLES
-    if not 0.0 < half_width < np.inf:
-        raise InvalidSettingError("The half-width", half_width, "a length above 0 m")
+    if not SMALLEST_HALF_WIDTH <= half_width <= FARTHEST:
+        wanted = f"a length from {SMALLEST_HALF_WIDTH:g} m to {FARTHEST:g} m"
+        raise InvalidSettingError("The half-width", half_width, wanted)
     return Settings(
         section=section,
         stations=_whole("stations", stations, FEWEST_STATIONS),
@@ -223,6 +227,7 @@ def _given(directrix: Literal["mean"] | FloatArray) -> FloatArray | None:
     curve = finite(directrix, "directrix", (None, 3))
     if len(curve) < 2:
         raise TooFewSamplesError("The directrix", len(curve))
+    check_places("The directrix", curve)
     return curve
 
 

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gc_core.arrays import BoolArray, FloatArray, finite, read_only
 from gc_core.cylinder import GeneralizedCylinder
-from gc_core.demonstration import sign_continuous
+from gc_core.demonstration import check_places, sign_continuous
 from gc_core.errors import InvalidSettingError, UnknownOptionError
 from gc_core.joining import joins_of
 from gc_core.location import ON_BOUNDARY
@@ -98,8 +98,8 @@ def reproduce(
 
     Raises
     ------
-    ShapeError, NotFiniteError
-        If the start is no finite place.
+    ShapeError, NotFiniteError, TooFarError
+        If the start is no place, or more than 1e6 m away.
     UnknownOptionError, InvalidSettingError
         If the law, the final ratio or the station do not exist.
 
@@ -124,8 +124,9 @@ def reproduce(
         raise UnknownOptionError("outside", outside, OUTSIDE)
     if not 0.0 <= final_ratio < np.inf:
         raise InvalidSettingError("final_ratio", final_ratio, "a ratio of at least 0")
-    single = np.ndim(start) == 1
+    single = _is_one(start)
     starts = finite(start, "start", (3,))[None] if single else finite(start, "start", (None, 3))
+    check_places("start", starts)
     joins = joins_of(cylinder, starts, at)
     first = float(joins.stations.min()) if len(starts) else 0.0
     stations = np.concatenate(([first], np.arange(int(first) + 1.0, len(cylinder.directrix))))
@@ -165,6 +166,15 @@ def _reproduction(
         start_inside=bool(inside[0]) if single else inside,
         law=law,
     )
+
+
+def _is_one(start: ArrayLike) -> bool:
+    """Whether a start is a single place rather than rows of them."""
+    try:
+        return np.ndim(start) == 1
+    except ValueError:
+        # Rows of different length, which `finite` refuses in words.
+        return False
 
 
 def _can_be_written(array: NDArray[Any]) -> bool:

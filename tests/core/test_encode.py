@@ -326,6 +326,9 @@ def test_the_gripper_follows_the_majority_and_switches_once() -> None:
         (InvalidSettingError, {"angles": np.inf}),
         (InvalidSettingError, {"angles": 2}),
         (InvalidSettingError, {"minimum_half_width": 0.0}),
+        (InvalidSettingError, {"minimum_half_width": 1e-200}),
+        (InvalidSettingError, {"minimum_half_width": 1e160}),
+        (GcError, {"directrix": np.array([[0.0, 0.0, 0.0], [1e160, 0.0, 0.0]])}),
         (GcError, {"directrix": np.zeros((5, 2))}),
     ],
 )

@@ -11,6 +11,7 @@ from gc_core import (
     InvalidSettingError,
     NotFiniteError,
     ShapeError,
+    TooFarError,
     UnknownOptionError,
     encode,
     reproduce,
@@ -183,12 +184,14 @@ def test_orientation_and_gripper_follow_the_stations() -> None:
     [
         (NotFiniteError, [np.nan, 0.0, 0.0], {}),
         (ShapeError, [0.0, 0.0], {}),
+        (ShapeError, [[0.0, 0.0, 0.0], [0.0, 0.0]], {}),
+        (TooFarError, [1e160, 0.0, 0.0], {}),
         (UnknownOptionError, [0.0, 0.0, 0.0], {"law": "wild"}),
         (InvalidSettingError, [0.0, 0.0, 0.0], {"final_ratio": -1.0}),
         (InvalidSettingError, [0.0, 0.0, 0.0], {"at": 1000}),
     ],
 )
-def test_what_cannot_be_run_is_refused(error: type[Exception], start: list[float], options: dict) -> None:
+def test_what_cannot_be_run_is_refused(error: type[Exception], start: list, options: dict) -> None:
     with pytest.raises(error):
         reproduce(encode(bundle(0)), start, **options)
 
