@@ -7,6 +7,7 @@ in space (similaritymeasures 1.5) agrees to the last digit but takes five times 
 from __future__ import annotations
 
 import numpy as np
+from scipy.spatial.distance import cdist
 
 from gc_core.arrays import FloatArray, finite
 from gc_core.cylinder import GeneralizedCylinder
@@ -76,7 +77,7 @@ def frechet(a: FloatArray, b: FloatArray) -> float:
     ----------
     .. [1] T. Eiter, H. Mannila. Computing discrete Fréchet distance. CD-TR 94/64, TU Vienna, 1994.
     """
-    return _least_maximum(np.linalg.norm(_path(a, "a")[:, None] - _path(b, "b")[None], axis=2))
+    return _least_maximum(np.asarray(cdist(_path(a, "a"), _path(b, "b")), dtype=np.float64))
 
 
 def dtw(a: FloatArray, b: FloatArray) -> float:
