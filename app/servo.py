@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -32,7 +33,11 @@ ARRIVED = 0.001
 """A hand this near to the last target has arrived [m]."""
 STOPPED = 2e-5
 """A hand that moves less than this in a tick has stopped [m]."""
+FASTEST = 3.0
+"""No joint turns faster than this while the arm is repositioned [rad/s]."""
 
+_PEAK = 1.875
+"""Largest speed of a motion of minimum jerk over its mean speed."""
 _TICK = 1.0 / TICKS_PER_SECOND
 _MARGIN = 0.01
 """The hand stays the longest recent interval and this much behind: late events do not stop it [s]."""
@@ -210,6 +215,43 @@ def return_home(
     begin_at, end_at = np.asarray(start, dtype=np.float64), np.asarray(goal, dtype=np.float64)
     joints = (1.0 - eased)[:, None] * begin_at + eased[:, None] * end_at
     return _tool_motion(arm, _tick_at(time) + ticks, joints)
+
+
+def reposition(arm: Arm, joints: FloatArray, target: FloatArray, *, time: float = 0.0) -> Motion | None:
+    """Bring a hand that is stuck to where it is wanted, by another posture of the arm.
+
+    Parameters
+    ----------
+    arm : Arm
+        Finds the way by `Arm.reposition`.
+    joints : (J,) array
+        Present joints [rad].
+    target : (3,) array
+        Where the hand is wanted [m].
+    time : float
+        Session time of the beginning [s]; rounded down to a whole tick.
+
+    Returns
+    -------
+    Motion or None
+        From one posture of the way to the next, each by `return_home`, no joint faster
+        than `FASTEST`; None when there is no way.
+    """
+    way = arm.reposition(joints, target)
+    if way is None:
+        return None
+    parts: list[Motion] = []
+    for start, goal in pairwise(way):
+        duration = max(_PEAK * float(np.abs(goal - start).max()) / FASTEST, _TICK)
+        # Rounded up to a whole tick: a shorter time would be too fast.
+        whole = math.ceil(duration * TICKS_PER_SECOND) / TICKS_PER_SECOND
+        begins = float(parts[-1].times[-1]) if parts else time
+        parts.append(return_home(arm, start, goal, time=begins, duration=whole))
+    return Motion(
+        np.concatenate([part.times for part in parts]),
+        np.concatenate([part.joints for part in parts]),
+        np.concatenate([part.positions for part in parts]),
+    )
 
 
 def _one_tick(servo: Servo, arm: Arm) -> Servo:

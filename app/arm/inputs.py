@@ -30,6 +30,14 @@ def path_of(value: npt.ArrayLike) -> FloatArray:
     return _array(path, "a path", (len(path), 3))
 
 
+def configurations_of(value: npt.ArrayLike, lower: FloatArray, upper: FloatArray) -> FloatArray:
+    """Give several configurations as a new (K, J) array within the limits [rad], K >= 1."""
+    joints = np.array(value, dtype=np.float64)
+    if joints.ndim != 2 or len(joints) == 0:
+        raise ArmInputError("configurations", "(K, J) joints with K >= 1", f"shape {joints.shape}")
+    return np.clip(_array(joints, "configurations", (len(joints), len(lower))), lower, upper)
+
+
 def duration_of(value: float) -> float:
     """Give a length of time that is positive and finite [s]."""
     if not (math.isfinite(value) and value > 0.0):

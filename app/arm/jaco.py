@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
 from functools import cache
 from pathlib import Path
 
@@ -11,16 +12,22 @@ import numpy.typing as npt
 
 from app.arm import meshes, urdf
 from app.arm.cache import prepared_folder
+from app.arm.conditions import FREE, Conditions
 from app.arm.errors import ArmClosedError
-from app.arm.inputs import duration_of, gripper_of, joints_of, path_of, position_of
+from app.arm.inputs import configurations_of, duration_of, gripper_of, joints_of, path_of, position_of
 from app.arm.paths import find_path
-from app.arm.protocol import HERE, FloatArray, JointPath, LinkMesh, Shortfall
+from app.arm.postures import OWN_BODY, reaching, way_to, why_not
+from app.arm.programs import SAFE_DISTANCE
+from app.arm.protocol import HERE, STUCK, Clearance, FloatArray, JointPath, LinkMesh, Shortfall
 from app.arm.reach import Shell
-from app.arm.solver import SAFE_DISTANCE, Solver, SolverPool
+from app.arm.solver import Solver, SolverPool
 
 HOME = (-1.571, 3.68, 1.735, 3.142, 1.945, 0.0)
 """Tool straight down at (0.010, -0.500, 0.250) m; within (-pi, pi] where joints are endless [rad]."""
-SHELL = Shell(shoulder=(0.0, 0.0, 0.2755), inner=0.25, outer=0.96, table=0.02)
+SHELL = Shell(shoulder=(0.0, 0.0, 0.2755), inner=0.05, outer=0.98, table=0.02)
+"""Everything outside is out of reach for every posture, but for a rim that is thinner than `HERE`."""
+ACCELERATION = 1.5
+"""Ours, since Kinova states none: the joints come to their full speed in half a second [rad/s^2]."""
 
 _POOL = SolverPool()
 _CLOSED = 1.34
@@ -32,10 +39,30 @@ _NEAR_BODY = 0.004
 _CREEPING = 1e-4
 """A tool that moves less than this in a tick has come to rest [m]."""
 _COLUMN_RADIUS, _COLUMN_TOP = 0.2, 0.35
-"""Around the base and below the shoulder there is no room for the hand [m]."""
-_IN_THE_WAY = 0.2
-"""A target farther away than this is not reached by making room, but by another way [m]."""
-_NO_WAY = "no way from here: lead the hand around the base"
+"""Around the base and below the shoulder there is little room for the hand [m]."""
+
+
+class _Seat:
+    """The solver that an arm and its views under other conditions share until they are closed."""
+
+    def __init__(self, folder: Path, home: FloatArray) -> None:
+        self.folder = folder
+        self.solver: Solver | None = _POOL.acquire(folder, home)
+        self.kinematics = self.solver.kinematics
+        self.searched: tuple[object, str | None] | None = None
+        """What was asked last about a hand that is not there, and the answer: a held pointer asks again."""
+
+    def use(self, conditions: Conditions) -> Solver:
+        """Give the solver, heeding conditions."""
+        if self.solver is None:
+            raise ArmClosedError("Jaco")
+        return self.solver.heed(conditions)
+
+    def close(self) -> None:
+        """Give the solver back to the pool."""
+        solver, self.solver = self.solver, None
+        if solver is not None:
+            _POOL.release(self.folder, solver)
 
 
 class Jaco:
@@ -54,11 +81,12 @@ class Jaco:
     """
 
     def __init__(self, folder: Path | None = None) -> None:
-        self._folder = prepared_folder() if folder is None else folder
-        self._link_meshes = _read_meshes(self._folder)
+        folder = prepared_folder() if folder is None else folder
+        self._link_meshes = _read_meshes(folder)
         self._home = _read_only(HOME)
-        self._solver: Solver | None = _POOL.acquire(self._folder, self._home)
-        self._kinematics = self._solver.kinematics
+        self._seat = _Seat(folder, self._home)
+        self._kinematics = self._seat.kinematics
+        self._conditions = FREE
 
     @property
     def name(self) -> str:
@@ -89,6 +117,22 @@ class Jaco:
     def velocity_limits(self) -> FloatArray:
         """(6,) what Kinova allows: 36 and 48 degrees a second [rad/s]."""
         return self._kinematics.velocity_limits
+
+    @property
+    def acceleration_limits(self) -> FloatArray:
+        """(6,) `ACCELERATION` for every joint [rad/s^2]."""
+        return _read_only(np.full(len(self._home), ACCELERATION))
+
+    @property
+    def conditions(self) -> Conditions:
+        """What this arm heeds."""
+        return self._conditions
+
+    def under(self, conditions: Conditions) -> Jaco:
+        """Give the same arm, heeding other conditions; both are closed together."""
+        other = copy(self)
+        other._conditions = conditions
+        return other
 
     @property
     def link_meshes(self) -> tuple[LinkMesh, ...]:
@@ -133,41 +177,62 @@ class Jaco:
         distance = float(np.linalg.norm(self._use().tip(placed) - wanted))
         if distance <= HERE:
             return None
-        return Shortfall(distance, SHELL.outside(wanted) or self._obstacle(placed, wanted))
+        reason = SHELL.outside(wanted) or self._obstacle(placed, wanted)
+        return Shortfall(distance, reason, self._cause(placed) if reason == STUCK else "")
 
     def unreachable(self, positions: npt.ArrayLike) -> str | None:
         """Say why the worst of some places is out of reach."""
         return SHELL.worst(path_of(positions))
 
+    def reposition(self, joints: npt.ArrayLike, target: npt.ArrayLike) -> FloatArray | None:
+        """Find a way to another posture, straight, folded up over the base, or by way of home."""
+        wanted = SHELL.project(position_of(target))
+        solver = self._use()
+        return way_to(solver, self._joints(joints), wanted, self._home, solver.endless)
+
+    def clearance(self, joints: npt.ArrayLike) -> Clearance:
+        """Measure between boxes around the links, 26 pairs of them and every obstacle."""
+        return self._use().clearance(configurations_of(joints, self.lower, self.upper))
+
     def close(self) -> None:
         """Give the solver back to the pool."""
-        solver, self._solver = self._solver, None
-        if solver is not None:
-            _POOL.release(self._folder, solver)
+        self._seat.close()
 
     def _obstacle(self, joints: FloatArray, target: FloatArray) -> str:
         """Say what keeps the tool from a target inside the shell."""
         solver = self._use()
-        after = solver.drag(joints, SHELL.project(target), 0.01)
+        after = solver.drag(joints, target, 0.01)
         if np.linalg.norm(solver.tip(after) - solver.tip(joints)) > _CREEPING:
             return "still on its way"
-        if np.linalg.norm(target[:2]) < _COLUMN_RADIUS and target[2] < _COLUMN_TOP:
-            return "too close to its own base"
-        if solver.closest_bodies(joints)[0] < SAFE_DISTANCE + _NEAR_BODY:
-            near = np.linalg.norm(solver.tip(joints) - target) < _IN_THE_WAY
-            return "its own arm is in the way" if near else _NO_WAY
+        question = (target.tobytes(), self._conditions)
+        if self._seat.searched is None or self._seat.searched[0] != question:
+            self._seat.searched = question, self._searched(target)
+        return self._seat.searched[1] or self._cause(joints) or "no posture of the arm reaches this"
+
+    def _cause(self, joints: FloatArray) -> str:
+        """Say what is nearest to stopping the arm where it is; empty when nothing is near."""
+        found = self._use().clearance(joints[None])
+        if found.obstacles[0] < SAFE_DISTANCE + _NEAR_BODY:
+            return f"{found.names[0]} is in the way"
         room = np.minimum(joints - self.lower, self.upper - joints)
         if room.min() < _NEAR_LIMIT:
             return f"joint {int(room.argmin()) + 1} at its limit"
-        return _NO_WAY
+        return OWN_BODY if found.itself[0] < SAFE_DISTANCE + _NEAR_BODY else ""
+
+    def _searched(self, target: FloatArray) -> str | None:
+        """Say whether another posture reaches a target, and if none does, why; None: no idea."""
+        solver = self._use()
+        if any(True for _ in reaching(solver, target, self._home)):
+            return STUCK
+        reason = why_not(solver, target, self._home, self._conditions)
+        in_the_column = bool(np.linalg.norm(target[:2]) < _COLUMN_RADIUS and target[2] < _COLUMN_TOP)
+        return "too close to its own base" if in_the_column and reason in (None, OWN_BODY) else reason
 
     def _joints(self, joints: npt.ArrayLike) -> FloatArray:
         return joints_of(joints, self._kinematics.lower, self._kinematics.upper)
 
     def _use(self) -> Solver:
-        if self._solver is None:
-            raise ArmClosedError(self.name)
-        return self._solver
+        return self._seat.use(self._conditions)
 
 
 @cache

@@ -1,31 +1,32 @@
 """A whole path for the Jaco: which posture to begin with decides how it ends.
 
 The cheap answer is tried first: begin as the arm stands, or at home. Only when
-that jumps, misses or touches the arm itself are other postures scored on a
-coarse copy of the path; and only when the best one touches the arm is the path
-solved again with the bodies kept apart.
+that jumps, misses or touches the arm itself or an obstacle are other postures
+scored on a coarse copy of the path; and only when the best one touches something
+is the path solved again: with the bodies kept apart, then with the tool turned as
+it likes.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
+from app.arm.postures import seeds
+from app.arm.programs import SAFE_DISTANCE, Wrist
 from app.arm.protocol import FloatArray, JointPath
-from app.arm.solver import SAFE_DISTANCE, Solver
+from app.arm.solver import Solver
 
 _N_COARSE = 40
-_N_SEEDS = 24
 _N_CHECKED = 100
+_GOOD_ROOM = 0.8 * SAFE_DISTANCE
+"""Kept apart, bodies come a little nearer than asked for; that is near enough [m]."""
 _REACHED = 1e-3
 """A position nearer than this is reached [m]."""
 _SMOOTH = 0.5
 """Largest joint step between two coarse positions that needs no second thought [rad]."""
-_SEED_LOW = np.array([-3.1, 1.2, 0.7, -3.1, 0.9, -3.1])
-_SEED_HIGH = np.array([3.1, 5.1, 5.5, 3.1, 5.3, 3.1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,18 +38,18 @@ class _Candidate:
     """Sum of what the tool missed the positions by, beyond `_REACHED` [m]."""
     jump: float
     """Largest joint step [rad]."""
-    distance: float
-    """Smallest distance between bodies of the arm [m]."""
+    room: float
+    """Smallest distance of the arm from itself and from obstacles [m]."""
 
     @property
     def good(self) -> bool:
         """Whether no other posture needs to be tried."""
-        return self.missed == 0.0 and self.jump < _SMOOTH and self.distance >= SAFE_DISTANCE
+        return self.missed == 0.0 and self.jump < _SMOOTH and self.room >= SAFE_DISTANCE
 
     @property
     def cost(self) -> float:
-        """Reach counts most, then not to touch oneself, then smoothness."""
-        return 100.0 * self.missed + self.jump + 1000.0 * max(0.0, SAFE_DISTANCE - self.distance)
+        """Reach counts most, then to touch nothing, then smoothness."""
+        return 100.0 * self.missed + self.jump + 1000.0 * max(0.0, SAFE_DISTANCE - self.room)
 
 
 def find_path(
@@ -73,45 +74,54 @@ def find_path(
         Joints and distances left.
     """
     coarse = positions[_spread(len(positions), _N_COARSE)]
+    best = _best(solver, coarse, start, home, "down")
+    path = solver.walk(positions, best.joints)
+    room = _room(solver, path)
+    if room >= SAFE_DISTANCE:
+        return path
+    best_free = _best(solver, coarse, start, home, "free")
+    others: tuple[tuple[FloatArray, Wrist, bool], ...] = (
+        (best.joints, "down", True),
+        (best_free.joints, "free", False),
+        (best_free.joints, "free", True),
+    )
+    for begin, wrist, careful in others:
+        other = solver.walk(positions, begin, careful=careful, wrist=wrist)
+        other_room = _room(solver, other)
+        if other_room > room and other.errors.max() <= max(_REACHED, path.errors.max()):
+            path, room = other, other_room
+        if room >= _GOOD_ROOM:
+            break
+    return path
+
+
+def _best(
+    solver: Solver, coarse: FloatArray, start: FloatArray | None, home: FloatArray, wrist: Wrist
+) -> _Candidate:
+    """Give the first good posture to begin with, or the best of all."""
     best: _Candidate | None = None
-    for seed in _seeds(start, home):
-        candidate = _try(solver, coarse, seed)
+    for seed in seeds(start, home):
+        candidate = _try(solver, coarse, seed, wrist)
         if best is None or candidate.cost < best.cost:
             best = candidate
         if best.good:
-            break
-    begin = home if best is None else best.joints
-    path = solver.walk(positions, begin)
-    return _apart(solver, positions, begin, path)
+            return best
+    assert best is not None  # home is always among them
+    return best
 
 
-def _apart(solver: Solver, positions: FloatArray, begin: FloatArray, path: JointPath) -> JointPath:
-    """Solve again with the bodies kept apart when a path touches the arm itself."""
-    checked = _spread(len(positions), _N_CHECKED)
-    distance = solver.self_distance(path.joints[checked])
-    if distance >= SAFE_DISTANCE:
-        return path
-    careful = solver.walk(positions, begin, careful=True)
-    misses = careful.errors.max() > max(_REACHED, path.errors.max())
-    return path if misses or solver.self_distance(careful.joints[checked]) <= distance else careful
+def _room(solver: Solver, path: JointPath) -> float:
+    return solver.room(path.joints[_spread(len(path.joints), _N_CHECKED)])
 
 
-def _seeds(start: FloatArray | None, home: FloatArray) -> Iterator[FloatArray]:
-    if start is not None:
-        yield start
-    yield home
-    # A fixed seed: the same path always gets the same answer.
-    yield from np.random.default_rng(0).uniform(_SEED_LOW, _SEED_HIGH, (_N_SEEDS, len(home)))
-
-
-def _try(solver: Solver, coarse: FloatArray, seed: FloatArray) -> _Candidate:
-    path = solver.walk(coarse, seed)
+def _try(solver: Solver, coarse: FloatArray, seed: FloatArray, wrist: Wrist) -> _Candidate:
+    path = solver.walk(coarse, seed, wrist=wrist)
     steps = np.abs(np.diff(path.joints, axis=0))
     return _Candidate(
         joints=path.joints[0],
         missed=float(np.maximum(path.errors - _REACHED, 0.0).sum()),
         jump=float(steps.max(initial=0.0)),
-        distance=solver.self_distance(path.joints),
+        room=solver.room(path.joints),
     )
 
 

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from copy import copy
 
 import numpy as np
 import numpy.typing as npt
 
+from app.arm.conditions import FREE, Conditions
 from app.arm.errors import ArmClosedError
-from app.arm.inputs import duration_of, gripper_of, joints_of, path_of, position_of
-from app.arm.protocol import HERE, FloatArray, JointPath, LinkMesh, Shortfall
+from app.arm.inputs import configurations_of, duration_of, gripper_of, joints_of, path_of, position_of
+from app.arm.protocol import HERE, Clearance, FloatArray, JointPath, LinkMesh, Shortfall
 from app.arm.reach import Shell
 
 _HEIGHT, _UPPER, _LOWER = 0.3, 0.5, 0.5
@@ -34,7 +36,8 @@ class PlanarArm:
 
     The links point along x of their frames; at joints 0 the arm is stretched
     out along the world's x axis at the height of the shoulder, and positive
-    angles of shoulder and elbow lift it. The elbow is always above the hand.
+    angles of shoulder and elbow lift it. The elbow is always above the hand. It is
+    made of thin lines: nothing touches anything, and it has no wrist to lock.
     """
 
     name = "Planar arm"
@@ -43,6 +46,8 @@ class PlanarArm:
     def __init__(self) -> None:
         self.lower, self.upper = _read_only(_LIMITS[0]), _read_only(_LIMITS[1])
         self.velocity_limits = _read_only(np.full(3, 1.0))
+        self.acceleration_limits = _read_only(np.full(3, 2.0))
+        self.conditions = FREE
         self.home = _read_only(np.array([-math.pi / 2, 0.9, -1.9]))
         self.link_meshes = _meshes()
         self._closed = False
@@ -91,6 +96,24 @@ class PlanarArm:
     def unreachable(self, positions: npt.ArrayLike) -> str | None:
         """Say why the worst of some places is out of reach."""
         return SHELL.worst(path_of(positions))
+
+    def under(self, conditions: Conditions) -> PlanarArm:
+        """Give an arm that knows the conditions and need not heed them."""
+        other = copy(self)
+        other.conditions = conditions
+        return other
+
+    def reposition(self, joints: npt.ArrayLike, target: npt.ArrayLike) -> FloatArray | None:
+        """Go straight to the only posture there is; None where it misses."""
+        begin, wanted = self._joints(joints), position_of(target)
+        end = self._solve(SHELL.project(wanted), begin)
+        missed = np.linalg.norm(self.tool_pose(end)[:3, 3] - wanted) > HERE
+        return None if missed else np.array([begin, end])
+
+    def clearance(self, joints: npt.ArrayLike) -> Clearance:
+        """Say that nothing is near."""
+        n = len(configurations_of(joints, self.lower, self.upper))
+        return Clearance(np.full(n, math.inf), np.full(n, math.inf), ("",) * n, ("",) * n)
 
     def close(self) -> None:
         """Refuse to be used from now on."""

@@ -10,16 +10,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from app.arm.conditions import Conditions
 
 FloatArray = npt.NDArray[np.float64]
 """Joints, positions and poses: float64, SI units."""
 
 HERE = 0.005
 """A hand closer than this to where it is wanted is there [m]."""
+STUCK = "stuck: reposition the arm"
+"""The reason where the hand is not, though another posture of the arm would bring it there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +59,27 @@ class Shortfall:
     """From the tool to the wanted position [m]."""
     reason: str
     """For instance ``12 cm beyond reach`` or ``joint 4 at its limit``; no full stop."""
+    cause: str = ""
+    """What stopped a hand that is stuck, for instance ``joint 2 at its limit``; empty where that is unknown."""
+
+    @property
+    def stuck(self) -> bool:
+        """Whether `Arm.reposition` knows a posture that brings the hand there."""
+        return self.reason == STUCK
+
+
+@dataclass(frozen=True, eq=False)
+class Clearance:
+    """How far the bodies of an arm are from each other and from the obstacles along joints (K, J)."""
+
+    itself: FloatArray
+    """(K,) smallest distance between two bodies of the arm [m]; negative: they overlap; inf: it has none."""
+    obstacles: FloatArray
+    """(K,) smallest distance of the whole arm from an obstacle [m]; negative: so deep; inf: there is none."""
+    links: tuple[str, ...]
+    """K names of the link nearest to an obstacle; empty names without obstacles."""
+    names: tuple[str, ...]
+    """K names of the obstacle nearest to the arm; empty names without obstacles."""
 
 
 class Arm(Protocol):
@@ -90,8 +116,28 @@ class Arm(Protocol):
         ...
 
     @property
+    def acceleration_limits(self) -> FloatArray:
+        """(J,) how fast a played path may change the joints' speeds [rad/s^2]."""
+        ...
+
+    @property
     def link_meshes(self) -> tuple[LinkMesh, ...]:
         """The parts to draw, once."""
+        ...
+
+    @property
+    def conditions(self) -> Conditions:
+        """What this arm heeds."""
+        ...
+
+    def under(self, conditions: Conditions) -> Arm:
+        """Give the same arm, heeding other conditions; it is closed when this one is.
+
+        Parameters
+        ----------
+        conditions : Conditions
+            Obstacles to keep off, and how the tool is held.
+        """
         ...
 
     def tool_pose(self, joints: FloatArray) -> FloatArray:
@@ -217,6 +263,45 @@ class Arm(Protocol):
         -------
         str or None
             Of the worst one, for instance ``12 cm beyond reach``; no full stop. None says nothing.
+
+        Raises
+        ------
+        ArmInputError
+            If the argument has the wrong shape or is not finite.
+        """
+        ...
+
+    def reposition(self, joints: FloatArray, target: FloatArray) -> FloatArray | None:
+        """Find a way to another posture, for a hand that is stuck.
+
+        Parameters
+        ----------
+        joints : (J,) array
+            Joints to begin from [rad].
+        target : (3,) array
+            Where the hand is wanted [m].
+
+        Returns
+        -------
+        (W, J) array or None
+            Joints to pass in straight lines, W >= 2: the first are those given, the last
+            bring the tool to the target; no body touches another or an obstacle on the way.
+            None when there is no such posture or no way to it was found.
+
+        Raises
+        ------
+        ArmInputError
+            If an argument has the wrong shape or is not finite.
+        """
+        ...
+
+    def clearance(self, joints: FloatArray) -> Clearance:
+        """Measure how far the arm is from itself and from the obstacles.
+
+        Parameters
+        ----------
+        joints : (K, J) array
+            Joints [rad]; K >= 1.
 
         Raises
         ------

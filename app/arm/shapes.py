@@ -122,15 +122,21 @@ class Primitive:
 
 def pose_of(shape: Shape) -> FloatArray:
     """Give the (4, 4) pose ``T_world_shape`` [m]."""
-    w, x, y, z = np.asarray(shape.wxyz) / np.linalg.norm(shape.wxyz)
     pose = np.eye(4)
-    pose[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ]
-    pose[:3, 3] = shape.position
+    pose[:3, :3], pose[:3, 3] = rotation_of(shape.wxyz), shape.position
     return pose
+
+
+def rotation_of(wxyz: Quadruple) -> FloatArray:
+    """Give the (3, 3) rotation of an orientation of any length but zero."""
+    w, x, y, z = np.asarray(wxyz) / np.linalg.norm(wxyz)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
 
 
 def primitives(shape: Shape) -> tuple[Primitive, ...]:
@@ -153,6 +159,36 @@ def primitives(shape: Shape) -> tuple[Primitive, ...]:
     if isinstance(shape, Cylinder):
         return (Primitive("cylinder", (shape.radius, shape.length), np.eye(4)),)
     return tuple(_ring_part(shape, number) for number in range(RING_PARTS))
+
+
+def surface_distance(shape: Shape, pose: FloatArray, point: FloatArray) -> float:
+    """Measure from a point to the surface of a shape.
+
+    Parameters
+    ----------
+    shape : Shape
+        A ring is taken as the torus it is.
+    pose : (4, 4) array
+        Where the shape is now: ``T_world_shape`` [m].
+    point : (3,) array
+        In the world [m].
+
+    Returns
+    -------
+    float
+        Negative inside [m].
+    """
+    local = pose[:3, :3].T @ (point - pose[:3, 3])
+    out, up = math.hypot(local[0], local[1]), abs(float(local[2]))
+    if isinstance(shape, Sphere):
+        return float(np.linalg.norm(local)) - shape.radius
+    if isinstance(shape, Ring):
+        return math.hypot(out - shape.radius, up) - shape.wall
+    if isinstance(shape, Box):
+        beyond = np.abs(local) - 0.5 * np.asarray(shape.size)
+    else:
+        beyond = np.array([out - shape.radius, up - 0.5 * shape.length])
+    return float(np.linalg.norm(np.maximum(beyond, 0.0)) + min(beyond.max(), 0.0))
 
 
 def _ring_part(ring: Ring, number: int) -> Primitive:

@@ -1,9 +1,9 @@
-"""Inverse kinematics of the Jaco: the only module that talks to placo.
+"""Inverse kinematics of the Jaco: the only module that drives placo.
 
 placo keeps a configuration inside; every function here sets it before use, so
-that results depend on arguments alone. Four solves a tick take the oscillation
-out of a drag, damping in proportion to the distance left makes it settle, and
-a weight of 1e-5 for "tool down" bends the tip by 0.04 mm only.
+that results depend on arguments and conditions alone. Four solves a tick take the
+oscillation out of a drag, damping in proportion to the distance left makes it
+settle, and a weight of 1e-5 for "tool down" bends the tip by 0.04 mm only.
 """
 
 from __future__ import annotations
@@ -11,29 +11,25 @@ from __future__ import annotations
 import math
 import threading
 from collections.abc import Sequence
-from importlib import import_module
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from app.arm import urdf
-from app.arm.protocol import FloatArray, JointPath
+from app.arm.bodies import Bodies
+from app.arm.conditions import FREE, Conditions
+from app.arm.programs import Program, Wrist, placo
+from app.arm.protocol import Clearance, FloatArray, JointPath
+from app.arm.shapes import rotation_of
 
 DRAG_SPEED = 3.0
 """No joint turns faster than this while the hand is dragged [rad/s]."""
-SAFE_DISTANCE = 0.01
-"""Bodies of the arm stay this far from each other [m]."""
-
-# Not an import statement: placo lives in a prefix of its own, and its stubs name types that do not exist.
-_placo: Any = import_module("placo")
 _SOLVES_PER_TICK = 4
+_AT_REST = 1e-6
+"""When a solve moves no joint by more than this, the others of its tick would not either [rad]."""
 _TRUST = 0.3
 """Largest joint step of one solve along a path [rad]."""
-_DAMPING, _DAMPING_PER_METRE = 1e-6, 0.1
-_TOOL_DOWN, _POSTURE, _AVOID = 1e-5, 1e-7, 1e3
-_TRIGGER = 0.06
-"""Bodies of the arm begin to keep away from each other at this distance [m]."""
 _FIRST, _OTHERS = 80, 20
 """Largest number of solves for the first position of a path and for each other one."""
 _REACHED, _STILL = 1e-4, 1e-3
@@ -41,18 +37,24 @@ _REACHED, _STILL = 1e-4, 1e-3
 
 
 class Solver:
-    """One placo robot with its solvers; belongs to one arm at a time."""
+    """One placo robot with its programs; belongs to one arm at a time."""
 
     def __init__(self, folder: Path, posture: FloatArray) -> None:
         self.kinematics = urdf.kinematics(folder.joinpath(urdf.ROBOT_FILE).read_text("utf-8"))
-        self._robot = _placo.RobotWrapper(str(folder), 0)
-        self._robot.load_collision_pairs(str(folder / urdf.PAIRS_FILE))
-        self._bodies: list[str] = [str(body.name) for body in self._robot.collision_model.geometryObjects]
+        self._robot = placo.RobotWrapper(str(folder), 0)
+        self._bodies = Bodies(self._robot, folder)
         self._columns = [self._robot.get_joint_offset(name) for name in urdf.JOINT_NAMES]
         self._posture = posture
         self._endless = self.kinematics.upper >= urdf.ENDLESS
-        self._careful = _Tasks(self._robot, avoid=True)
-        self._free = _Tasks(self._robot, avoid=False)
+        self._programs: dict[tuple[bool, Wrist], Program] = {}
+        self._conditions = FREE
+
+    def heed(self, conditions: Conditions) -> Solver:
+        """From now on heed these conditions; gives itself."""
+        if conditions is not self._conditions:
+            self._bodies.surround(conditions.obstacles)
+            self._conditions = conditions
+        return self
 
     def tip(self, joints: FloatArray) -> FloatArray:
         """Give the (3,) position of the tool [m]."""
@@ -66,13 +68,13 @@ class Solver:
 
     def drag(self, joints: FloatArray, target: FloatArray, dt: float) -> FloatArray:
         """Move the tool towards a reachable target for one tick of ``dt`` seconds."""
-        self._place(joints)
-        self._careful.rest_at(self._posture_near(joints))
+        program = self._begin(joints, avoid=True, wrist=None)
         self._robot.set_velocity_limits(DRAG_SPEED)
-        self._careful.solver.dt = dt / _SOLVES_PER_TICK
-        self._careful.position.target_world = target
+        program.solver.dt = dt / _SOLVES_PER_TICK
+        program.aim(target)
         for _ in range(_SOLVES_PER_TICK):
-            self._solve(self._careful, target)
+            if self._solve(program, target) < _AT_REST:
+                break
         return np.clip(self._joints(), joints - DRAG_SPEED * dt, joints + DRAG_SPEED * dt)
 
     def walk(
@@ -81,6 +83,7 @@ class Solver:
         start: FloatArray,
         *,
         careful: bool = False,
+        wrist: Wrist | None = None,
     ) -> JointPath:
         """Visit positions (K, 3) one after the other, each from the joints of the one before.
 
@@ -91,51 +94,79 @@ class Solver:
         start : (6,) array
             Joints to begin from [rad].
         careful : bool
-            Keep the bodies of the arm apart; costs ten times as much.
+            Keep the bodies of the arm apart and off obstacles; costs ten times as much.
+        wrist : optional
+            How the tool is held; None: as the conditions say.
 
         Returns
         -------
         JointPath
             Joints and distances left.
         """
-        tasks = self._careful if careful else self._free
-        tasks.solver.dt = 1.0
+        program = self._begin(start, avoid=careful, wrist=wrist)
         self._robot.set_velocity_limits(_TRUST)
-        self._place(start)
-        tasks.rest_at(self._posture_near(start))
+        program.solver.dt = 1.0
         joints, errors = np.empty((len(positions), len(start))), np.empty(len(positions))
         for index, position in enumerate(positions):
-            errors[index] = self._converge(tasks, position, _FIRST if index == 0 else _OTHERS)
+            errors[index] = self._converge(program, position, _FIRST if index == 0 else _OTHERS)
             joints[index] = self._joints()
         return JointPath(joints, errors)
 
-    def closest_bodies(self, joints: FloatArray) -> tuple[float, str, str]:
-        """Give the smallest distance between two bodies of the arm [m] and their links."""
+    def clearance(self, configurations: FloatArray) -> Clearance:
+        """Measure along configurations (K, 6); as `app.arm.protocol.Arm.clearance`."""
+        itself, obstacles = np.empty(len(configurations)), np.empty(len(configurations))
+        pairs: list[tuple[str, str]] = []
+        for index, joints in enumerate(configurations):
+            self._place(joints)
+            nearest = self._bodies.nearest()
+            itself[index], obstacles[index] = nearest.itself, nearest.obstacle
+            pairs.append((nearest.link, nearest.name))
+        return Clearance(
+            itself, obstacles, tuple(link for link, _ in pairs), tuple(name for _, name in pairs)
+        )
+
+    def room(self, configurations: FloatArray) -> float:
+        """Give the smallest distance of the arm from itself and from obstacles along (K, 6) [m]."""
+        found = self.clearance(configurations)
+        return float(min(found.itself.min(), found.obstacles.min()))
+
+    def lowest(self, joints: FloatArray) -> float:
+        """Give the height of the lowest of elbow, wrist and tool [m]."""
         self._place(joints)
-        pairs: list[Any] = self._robot.distances()
-        nearest = min(pairs, key=_min_distance)
-        return float(nearest.min_distance), self._bodies[int(nearest.objA)], self._bodies[int(nearest.objB)]
+        return min(
+            float(self._robot.get_T_world_frame(name)[2, 3]) for name in (*urdf.MOVING_LINKS[1:], urdf.TOOL)
+        )
 
-    def self_distance(self, joints: FloatArray) -> float:
-        """Give the smallest distance between bodies of the arm over joints (K, 6) [m]."""
-        return min(self.closest_bodies(configuration)[0] for configuration in joints)
+    @property
+    def endless(self) -> npt.NDArray[np.bool_]:
+        """(6,) which joints turn without end."""
+        return self._endless
 
-    def _converge(self, tasks: _Tasks, position: FloatArray, iterations: int) -> float:
-        tasks.position.target_world = position
+    def _begin(self, joints: FloatArray, *, avoid: bool, wrist: Wrist | None) -> Program:
+        """Place the arm and give the program for it."""
+        orientation = self._conditions.orientation
+        if wrist is None or orientation is not None:
+            wrist = "down" if orientation is None else "locked"
+        if (avoid, wrist) not in self._programs:
+            self._programs[avoid, wrist] = Program(self._robot, avoid=avoid, wrist=wrist)
+        program = self._programs[avoid, wrist]
+        if orientation is not None:
+            program.hold(rotation_of(orientation))
+        self._place(joints)
+        program.rest_at(self._posture_near(joints))
+        return program
+
+    def _converge(self, program: Program, position: FloatArray, iterations: int) -> float:
+        program.aim(position)
         for _ in range(iterations):
-            moved = self._solve(tasks, position)
+            moved = self._solve(program, position)
             if moved < _STILL and math.dist(self._tip(), position) < _REACHED:
                 break
         return math.dist(self._tip(), position)
 
-    def _solve(self, tasks: _Tasks, position: FloatArray) -> float:
+    def _solve(self, program: Program, position: FloatArray) -> float:
         """Take one step; give the largest joint movement [rad]."""
-        tasks.damping.set_weight(_DAMPING + _DAMPING_PER_METRE * math.dist(self._tip(), position))
-        try:
-            moved = float(np.abs(tasks.solver.solve(True)).max())
-        except RuntimeError:
-            # The quadratic program had no solution; placo then leaves the joints as they were.
-            return 0.0
+        moved = program.solve(math.dist(self._tip(), position))
         self._robot.update_kinematics()
         return moved
 
@@ -155,39 +186,6 @@ class Solver:
 
     def _tip(self) -> FloatArray:
         return self._robot.get_T_world_frame(urdf.TOOL)[:3, 3]
-
-
-def _min_distance(pair: Any) -> float:
-    return pair.min_distance
-
-
-class _Tasks:
-    """What one quadratic program wants: position first, tool down a little, posture hardly."""
-
-    def __init__(self, robot: Any, *, avoid: bool) -> None:
-        self.solver = _placo.KinematicsSolver(robot)
-        self.solver.mask_fbase(True)
-        # "soft" throughout: a hard position has no solution where the arm cannot reach.
-        self.position = self.solver.add_position_task(urdf.TOOL, np.zeros(3))
-        self.position.configure("position", "soft", 1.0)
-        upwards = np.array([0.0, 0.0, 1.0])
-        axis = self.solver.add_axisalign_task(urdf.TOOL, upwards, -upwards)
-        axis.configure("tool down", "soft", _TOOL_DOWN)
-        self._rest = self.solver.add_joints_task()
-        self._rest.set_joints(dict.fromkeys(urdf.JOINT_NAMES, 0.0))
-        self._rest.configure("posture", "soft", _POSTURE)
-        self.damping = self.solver.add_regularization_task(_DAMPING)
-        self.solver.enable_joint_limits(True)
-        self.solver.enable_velocity_limits(True)
-        if avoid:
-            apart = self.solver.add_avoid_self_collisions_constraint()
-            apart.configure("apart", "soft", _AVOID)
-            apart.self_collisions_margin = SAFE_DISTANCE
-            apart.self_collisions_trigger = _TRIGGER
-
-    def rest_at(self, posture: FloatArray) -> None:
-        """Prefer this posture where position and tool leave a choice."""
-        self._rest.set_joints(dict(zip(urdf.JOINT_NAMES, posture.tolist(), strict=True)))
 
 
 class SolverPool:

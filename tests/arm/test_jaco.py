@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 import scipy.io
 
-from app.arm import FloatArray, Jaco, urdf
+from app.arm import STUCK, FloatArray, Jaco, urdf
 from app.arm.cache import prepared_folder
 from app.arm.jaco import SHELL
-from app.arm.solver import SAFE_DISTANCE, Solver
+from app.arm.programs import SAFE_DISTANCE
 
 DATA = Path(os.environ.get("GC_TEACH_DATA", Path(__file__).parents[2] / ".." / "shared" / "data"))
 ALPHA = DATA / "tlgc" / "alpha.mat"
@@ -155,19 +155,10 @@ def test_every_drag_that_does_not_arrive_has_a_reason(
 def test_the_arm_keeps_off_itself_while_it_is_dragged(
     jaco: Jaco, drags: list[tuple[FloatArray, FloatArray]]
 ) -> None:
-    solver = Solver(prepared_folder(), jaco.home)
-
-    assert min(solver.self_distance(joints[::50]) for _, joints in drags) > 0.8 * SAFE_DISTANCE
+    assert min(jaco.clearance(joints[::50]).itself.min() for _, joints in drags) > 0.8 * SAFE_DISTANCE
 
 
-def test_a_joint_at_its_limit_is_named(jaco: Jaco) -> None:
-    joints = np.array([1.216, jaco.lower[1], 1.542, 1.084, 2.496, -1.055])
-    reason = jaco._obstacle(joints, tip(jaco, joints))
-
-    assert reason == "joint 2 at its limit"
-
-
-def test_a_hand_pulled_to_the_other_side_of_the_base_is_told_the_way(jaco: Jaco) -> None:
+def test_a_hand_stopped_by_a_joint_s_limit_is_told_which(jaco: Jaco) -> None:
     opposite = np.array([0.068, -0.91, 0.05])
     joints = np.array([1.463, 5.463, 0.895, -0.022, 3.363, -0.984])
     for _ in range(100):
@@ -175,7 +166,9 @@ def test_a_hand_pulled_to_the_other_side_of_the_base_is_told_the_way(jaco: Jaco)
     shortfall = jaco.shortfall(joints, opposite)
 
     assert shortfall is not None
-    assert shortfall.reason == "no way from here: lead the hand around the base"
+    assert shortfall.stuck
+    assert shortfall.reason == STUCK == "stuck: reposition the arm"
+    assert shortfall.cause == "joint 2 at its limit"
 
 
 @pytest.mark.skipif(
@@ -200,7 +193,6 @@ def test_a_path_out_of_reach_is_followed_as_far_as_the_arm_goes(jaco: Jaco) -> N
 
 
 def test_random_paths_are_reached_without_touching_the_arm_itself(jaco: Jaco) -> None:
-    solver = Solver(prepared_folder(), jaco.home)
     rng = np.random.default_rng(4242)
     for _ in range(5):
         corners = np.array([random_goal(rng, anywhere=False) for _ in range(3)])
@@ -212,7 +204,7 @@ def test_random_paths_are_reached_without_touching_the_arm_itself(jaco: Jaco) ->
         path = jaco.follow(SHELL.project(positions))
 
         assert path.errors.max() < 1e-3
-        assert solver.self_distance(path.joints) > 0.0
+        assert jaco.clearance(path.joints).itself.min() > 0.0
 
 
 def test_the_cleaned_description_collides_as_boxes_and_draws_nothing() -> None:
