@@ -14,6 +14,9 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from scipy.spatial.transform import (  # pyright: ignore[reportMissingTypeStubs]  # SciPy has none
+    Rotation,
+)
 
 from app.arm import urdf
 from app.arm.cache import prepared_folder
@@ -21,7 +24,7 @@ from app.arm.errors import ArmClosedError, ArmInputError
 from app.arm.physics_engine import engine
 from app.arm.physics_report import Clearance
 from app.arm.protocol import FloatArray
-from app.arm.shapes import Primitive, Shape, pose_of, primitives
+from app.arm.shapes import Primitive, Shape, pose_of, primitives, surface_distance
 
 TABLE = "table"
 """What the table is called in reports."""
@@ -109,8 +112,53 @@ class World:
         state = self.call("getLinkState", self.arm, self.tool, computeForwardKinematics=1)
         return np.array(state[4], dtype=np.float64)
 
+    def pose(self, name: str) -> FloatArray:
+        """Give the (4, 4) pose of a thing as it lies now [m]."""
+        position, turn = self.call("getBasePositionAndOrientation", self.bodies[name])
+        pose = np.eye(4)
+        pose[:3, :3] = Rotation.from_quat(turn).as_matrix()
+        pose[:3, 3] = position
+        return pose
+
+    def name_of(self, body: int) -> str | None:
+        """Say what a body is; None for the arm."""
+        return next((name for name, number in self.bodies.items() if number == body), None)
+
+    def nearest_to_grip(self) -> tuple[float, str] | None:
+        """Give distance [m] and name of the movable thing nearest to the point between the fingers."""
+        tool = self.tool_position()
+        movable = [shape for shape in self.objects if shape.mass > 0.0]
+        return min(
+            ((surface_distance(shape, self.pose(shape.name), tool), shape.name) for shape in movable),
+            default=None,
+        )
+
+    def hand_distance(self, name: str) -> float:
+        """Give the distance between a thing and the hand with its fingers [m]."""
+        points = self.call("getClosestPoints", self.arm, self.bodies[name], _RANGE)
+        return min((point[8] for point in points if point[3] >= self.hand), default=np.inf)
+
+    def let_touch_hand(self, name: str, *, touch: bool) -> None:
+        """Let a thing and the hand push each other, or pass through each other."""
+        for index in self.links:
+            if index >= self.hand:
+                self.call("setCollisionFilterPair", self.arm, self.bodies[name], index, -1, int(touch))
+
+    def bolt_to_hand(self, name: str) -> int:
+        """Fix a thing to the hand as it lies now; give the number of the constraint."""
+        state = self.call("getLinkState", self.arm, self.hand, computeForwardKinematics=1)
+        away, turned = self.call("getBasePositionAndOrientation", self.bodies[name])
+        # pybullet's frame of a link is the one of its inertia: state[0] and [1], not [4] and [5].
+        back, turn_back = self._engine.invertTransform(state[0], state[1])
+        place, turn = self._engine.multiplyTransforms(back, turn_back, away, turned)
+        ends = (place, (0.0, 0.0, 0.0), turn)
+        kind, axis = self.constant("JOINT_FIXED"), (0.0, 0.0, 0.0)
+        return int(
+            self.call("createConstraint", self.arm, self.hand, self.bodies[name], -1, kind, axis, *ends)
+        )
+
     def clearance(self, joints: npt.ArrayLike, names: Sequence[str] | None = None) -> Clearance:
-        """Measure how far every link is from the things around it, along a path.
+        """Measure how far every moving link is from the things around it, along a path.
 
         Parameters
         ----------
@@ -133,15 +181,19 @@ class World:
         path = joint_path_of(joints)
         fixed = [shape.name for shape in self.objects if shape.mass == 0.0]
         wanted = tuple(fixed if names is None else names)
-        distances = np.full((len(path), len(self.links), len(wanted)), np.inf)
-        rows = {index: row for row, index in enumerate(self.links)}
+        # Without the base: what touches it does so however the arm moves.
+        moving = {index: name for index, name in self.links.items() if name != urdf.BASE_LINK}
+        distances = np.full((len(path), len(moving), len(wanted)), np.inf)
+        rows = {index: row for row, index in enumerate(moving)}
         for at, configuration in enumerate(path):
             self.place(configuration)
             for column, name in enumerate(wanted):
                 for point in self.call("getClosestPoints", self.arm, self.bodies[name], _RANGE):
-                    row = rows[point[3]]
+                    row = rows.get(point[3])
+                    if row is None:
+                        continue
                     distances[at, row, column] = min(distances[at, row, column], point[8])
-        return Clearance(tuple(self.links.values()), wanted, distances)
+        return Clearance(tuple(moving.values()), wanted, distances)
 
     def _fill(self, folder: Path) -> None:
         self.call("setGravity", 0.0, 0.0, _GRAVITY)
@@ -165,7 +217,9 @@ class World:
             self.call(
                 "changeDynamics", self.arm, index, linearDamping=0.0, angularDamping=0.0, jointDamping=0.0
             )
-        self.bodies = {shape.name: self._add(primitives(shape), pose_of(shape), shape.mass) for shape in self.objects}
+        self.bodies = {
+            shape.name: self._add(primitives(shape), pose_of(shape), shape.mass) for shape in self.objects
+        }
         if self._table is not None:
             self._add_table(self._table)
 
@@ -180,7 +234,7 @@ class World:
         self.bodies[TABLE] = body
 
     def _add(self, parts: Sequence[Primitive], pose: FloatArray, mass: float) -> int:
-        position, turn = position_and_turn(self, pose)
+        position, turn = position_and_turn(pose)
         if len(parts) == 1:
             shape = self.call("createCollisionShape", **_described(self, parts[0]))
         else:
@@ -196,7 +250,7 @@ class World:
         )
 
     def _add_compound(self, parts: Sequence[Primitive]) -> int:
-        places = [position_and_turn(self, part.pose) for part in parts]
+        places = [position_and_turn(part.pose) for part in parts]
         return int(
             self.call(
                 "createCollisionShapeArray",
@@ -220,8 +274,18 @@ def joint_path_of(joints: npt.ArrayLike) -> FloatArray:
     return path
 
 
-def position_and_turn(world: World, pose: FloatArray) -> tuple[list[float], list[float]]:
+def position_and_turn(pose: FloatArray) -> tuple[list[float], list[float]]:
     """Give the place [m] and the quaternion x, y, z, w of a (4, 4) pose, as pybullet wants them."""
-    del world
     turn = Rotation.from_matrix(pose[:3, :3]).as_quat()
     return pose[:3, 3].tolist(), turn.tolist()
+
+
+def _described(world: World, part: Primitive) -> dict[str, Any]:
+    """Describe one body as pybullet's createCollisionShape wants it."""
+    if part.kind == "box":
+        half = [0.5 * edge for edge in part.size]
+        return {"shapeType": world.constant("GEOM_BOX"), "halfExtents": half}
+    kind = world.constant(f"GEOM_{part.kind.upper()}")
+    if part.kind == "sphere":
+        return {"shapeType": kind, "radius": part.size[0]}
+    return {"shapeType": kind, "radius": part.size[0], "height": part.size[1]}

@@ -18,8 +18,8 @@ class PhysicsMissingError(ArmError):
     def __init__(self, why: str) -> None:
         super().__init__(
             f"Physics needs the package pybullet, which cannot be used here ({why}). Everything else works "
-            "without it. Install it with: pip install 'gc-teach[physics]' - seconds on Linux with Python 3.11, "
-            "elsewhere it is compiled for some minutes and needs a C++ compiler. Then start again."
+            "without it. Install it with: pip install 'gc-teach[physics]' (seconds on Linux with Python "
+            "3.11; elsewhere it is compiled for some minutes and needs a C++ compiler). Then start again."
         )
 
 
