@@ -1,6 +1,7 @@
 """What moved landmarks do to the tube, in a teacher's words with the expert's beside them."""
 
 from collections.abc import Sequence
+from typing import Final
 
 import numpy as np
 
@@ -8,10 +9,18 @@ from app.anchors import Anchor
 from app.arm.protocol import Arm
 from app.model import Model
 
+MOST_LISTED: Final = 3
+"""More landmarks than these are counted, not named."""
+
+
+def called(name: str) -> str:
+    """A landmark's name in a sentence: the goal, the cup, object 1."""
+    return name if name[-1:].isdecimal() else f"the {name}"
+
 
 def listed(names: Sequence[str]) -> str:
     """Join names: the start, the goal and the cup."""
-    said = [f"the {name}" for name in names]
+    said = [called(name) for name in names]
     return said[0] if len(said) == 1 else ", ".join(said[:-1]) + " and " + said[-1]
 
 
@@ -50,7 +59,8 @@ def how(model: Model) -> str:
     anchors, registration = model.anchors, model.registration
     if registration is None:
         return ""
-    between = listed([anchor.name for anchor in anchors])
+    few = len(anchors) <= MOST_LISTED
+    between = listed([anchor.name for anchor in anchors]) if few else f"its {len(anchors)} landmarks"
     if len(anchors) == 1:
         turned = " and turned" if anchors[0].kind == "object" else ""
         return f"The tube is moved{turned} as a whole, with {between}."
@@ -63,15 +73,16 @@ def how(model: Model) -> str:
 def folds(model: Model) -> str | None:
     """Say where the tube is turned inside out; None where it is not."""
     cylinder = model.cylinder
-    if cylinder is None or model.registration is None or not model.anchors:
+    if cylinder is None or model.registration is None:
         return None
     folded = np.flatnonzero(cylinder.diagnostics.folded)
     if not folded.size:
         return None
     places = cylinder.directrix[folded]
-    near = min(model.anchors, key=lambda anchor: np.linalg.norm(places - anchor.now, axis=1).min())
+    moving = [anchor for anchor in model.anchors if anchor.moved]
+    near = min(moving, key=lambda anchor: np.linalg.norm(places - anchor.now, axis=1).min())
     softer = ", or raise the smoothing in Move, Under the hood" if len(model.registration.weights) else ""
-    return f"The tube is turned inside out near the {near.name}. Move it less{softer}."
+    return f"The tube is turned inside out near {called(near.name)}. Move it less{softer}."
 
 
 def following(model: Model, name: str, arm: Arm) -> tuple[str, bool] | None:
@@ -81,5 +92,7 @@ def following(model: Model, name: str, arm: Arm) -> tuple[str, bool] | None:
         return None
     far = [why for run in model.runs if (why := arm.unreachable(run.reproduction.positions)) is not None]
     if far:
-        return f"The arm cannot follow the run there: {far[0]}. Keep the {name} nearer to the arm.", True
-    return f"The {name} is {moved(anchor) or 'where it was taught'}. {how(model)}".strip(), False
+        return f"The arm cannot follow the run there: {far[0]}. Keep {called(name)} nearer to the arm.", True
+    who = called(name)
+    said = f"{who[0].upper()}{who[1:]} is {moved(anchor) or 'where it was taught'}. {how(model)}"
+    return said.strip(), False

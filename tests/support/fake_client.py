@@ -289,6 +289,26 @@ class FakeClient:
             owner=node.owner,
         )
 
+    def click_scene(self, at: Point) -> None:
+        """Click wherever `at` (world, [m]) is seen; refused while nobody listens to such clicks."""
+        if not self._mirror.scene_clicks:
+            raise LookupError("nobody listens to clicks in the scene")
+        ray = np.asarray(at, float) - np.asarray(CAMERA)
+        self.send(
+            "ScenePointerMessage",
+            event_type="click",
+            ray_origin=CAMERA,
+            ray_direction=_floats(ray / np.linalg.norm(ray)),
+            screen_pos=((0.5, 0.5),),
+            modifier=None,
+        )
+
+    @property
+    def hears_clicks(self) -> bool:
+        """Whether a click anywhere in the scene would be heard."""
+        with self._news:
+            return self._mirror.scene_clicks
+
     def set_gui(self, label: str, value: Any, kind: str | None = None) -> None:
         """Set a slider, checkbox, dropdown, text or number by its label."""
         element = self._usable(label, kind)

@@ -80,6 +80,8 @@ class Mirror:
     uploaded: dict[str, int] = field(default_factory=dict)
     """Bytes that the server has acknowledged, by transfer."""
     theme: Mapping[str, Any] = field(default_factory=dict)
+    scene_clicks: bool = False
+    """Whether the server wants to hear of clicks anywhere in the scene."""
 
     def nodes(self) -> dict[str, Node]:
         """The variant of every node that a page would draw, by name."""
@@ -181,7 +183,13 @@ def _on_notice(mirror: Mirror, message: Message) -> None:
     mirror.notices.append((message["props"]["title"], message["props"]["body"]))
 
 
+def _on_scene_pointer(mirror: Mirror, message: Message) -> None:
+    if message["event_type"] == "click":
+        mirror.scene_clicks = bool(message["modifiers"])
+
+
 _HANDLERS = {
+    "ScenePointerEnableMessage": _on_scene_pointer,
     "RemoveSceneNodeMessage": lambda s, m: s.variants.pop((m["name"], m.get("owner", "")), None),
     "SceneNodeUpdateMessage": _on_node_update,
     "SetPositionMessage": lambda s, m: _change_node(s, m, position=tuple(m["position"])),
