@@ -39,7 +39,8 @@ def generalize(
     -------
     GeneralizedCylinder
         With the same stations, angles, times and gripper. A rigid map moves the cylinder and changes nothing
-        else. `diagnostics.folded` tells where the map turns space inside out, `crossing` is found anew.
+        else. `diagnostics.folded` tells where the map turns space inside out, on the directrix or the
+        boundary; `crossing` is found anew. `section` names the kind that was taught: a bent ellipse is none.
 
     References
     ----------

@@ -25,6 +25,10 @@ FARTHEST = 20.0
 BEYOND = 1.0
 """Pieces by which a line that does not reach its plane is continued straight, before it is projected."""
 
+GRAZING, STEEP = 0.05, 0.3
+"""A line that rises by less than the first, per step of the directrix, is projected onto its plane: where
+it would meet it is no question any more. From the second on it is cut; in between gradually [-]."""
+
 
 @dataclass(frozen=True, eq=False)
 class Image:
@@ -125,39 +129,53 @@ def _cut_again(lines: FloatArray, directrix: FloatArray, frames: FloatArray) -> 
     # The piece to try first is the one in which a straight line would meet the plane.
     begin = _first_pieces(height, rise, exact)
     low, along = _pieces(lines, begin)
-    part = _part(_products(axes[:, 0], low) - middle[0], _products(axes[:, 0], along), exact)
+    climb = _products(axes[:, 0], along)
+    part = _part(_products(axes[:, 0], low) - middle[0], climb, exact)
     along *= np.clip(part, -BEYOND, 1.0 + BEYOND)
     along += low
     off = np.flatnonzero((part < 0.0) | (part > 1.0))
     if off.size:
         planes = np.concatenate((frames[:, :, 0].T, middle[0].T))
-        along.reshape(3, -1)[:, off] = _met(lines, planes, off, begin.ravel()[off], exact)
+        met, climb.ravel()[off] = _met(lines, planes, off, begin.ravel()[off], exact)
+        along.reshape(3, -1)[:, off] = met
+    step = np.diff(directrix, axis=0, append=2.0 * directrix[-1:] - directrix[-2:-1])
+    least = np.minimum(rise, climb) / np.sqrt(np.einsum("ij,ij->i", step, step))[:, None]
+    station, line = np.nonzero(least < STEEP)
+    if station.size:
+        above = frames[station, :, 0].T * height[station, line]
+        projected = lines[:, station, line] - above
+        weight = np.maximum((least[station, line] - GRAZING) / (STEEP - GRAZING), 0.0)
+        along[:, station, line] = projected + weight * (along[:, station, line] - projected)
     local = np.empty((count, width, 2))
     for axis in (1, 2):
         local[:, :, axis - 1] = _products(axes[:, axis], along) - middle[axis]
     return local
 
 
-def _met(lines: FloatArray, planes: FloatArray, off: IntArray, begin: IntArray, exact: float) -> FloatArray:
+def _met(
+    lines: FloatArray, planes: FloatArray, off: IntArray, begin: IntArray, exact: float
+) -> tuple[FloatArray, FloatArray]:
     """Places (3, E) where lines (3, N, K) from pieces `begin` (E,) on meet planes (4, N) of samples `off`.
 
-    Where a line was left by its piece, the piece that the plane should lie in is tried next.
+    Where a line was left by its piece, the piece that the plane should lie in is tried next. Also returned is
+    how much the last pieces rise (E,).
     """
     width = lines.shape[2]
-    places = np.empty((3, len(off)))
+    places, climb = np.empty((3, len(off))), np.empty(len(off))
     rows = np.arange(len(off))
     for _ in range(ROUNDS):
         low, along = _pieces(lines, begin)
         plane = np.take(planes, off // width, axis=1)
-        part = _part(_products(plane, low) - plane[3], _products(plane, along), exact)
-        places[:, rows] = low + along * np.clip(part, -BEYOND, 1.0 + BEYOND)
+        rise = _products(plane, along)
+        part = _part(_products(plane, low) - plane[3], rise, exact)
+        places[:, rows], climb[rows] = low + along * np.clip(part, -BEYOND, 1.0 + BEYOND), rise
         ahead = np.floor(np.clip(part, -8.0, 8.0)).astype(np.intp)
         following = np.clip(begin // width + ahead, 0, lines.shape[1] - 2) * width + off % width
         fresh = np.flatnonzero(following != begin)
         off, begin, rows = off[fresh], following[fresh], rows[fresh]
         if not off.size:
             break
-    return places
+    return places, climb
 
 
 def _first_pieces(height: FloatArray, rise: FloatArray, exact: float) -> IntArray:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -15,12 +16,16 @@ from gc_core import (
     same_content,
 )
 from gc_core.landmarks import quaternion_matrices
+from gc_core.radius import GREATEST_SLOPE
+from gc_core.registration import turns_inside_out
 from gc_core.sections import SECTIONS
-from tests.core.shapes import bundle, seeds
+from tests.core.shapes import bundle, line, seeds
+from tests.core.steps import JUMP, worst_step_ratio
 from tests.core.test_encode import in_plane, ratios_to_polygons
 
 sections = st.sampled_from(sorted(SECTIONS))
 shifts = st.tuples(*[st.floats(-0.15, 0.15)] * 3)
+near_shifts = st.tuples(*[st.floats(-0.05, 0.05)] * 3)
 
 
 def ends_moved(cylinder: GeneralizedCylinder, start: tuple, goal: tuple) -> GeneralizedCylinder:
@@ -134,3 +139,99 @@ def test_the_cylinder_itself_does_not_change() -> None:
     ends_moved(one, (0.1, 0.0, 0.0), (0.0, 0.1, 0.0))
 
     assert same_content(one, other)
+
+
+@settings(max_examples=20, deadline=None)
+@given(seed=seeds, start=near_shifts, goal=near_shifts, section=sections)
+def test_a_small_move_of_an_end_changes_everything_a_little(
+    seed: int, start: tuple, goal: tuple, section: str
+) -> None:
+    cylinder = encode(bundle(seed), section=section, stations=80)
+    ends = cylinder.directrix[[0, -1]]
+    targets = [ends + np.array([start, goal]) + np.array([[0.0], [nudge]]) for nudge in (0.0, 1e-5)]
+    one, other = (generalize(cylinder, register(ends, target), repair=False) for target in targets)
+
+    np.testing.assert_allclose(other.directrix, one.directrix, atol=1e-4)
+    np.testing.assert_allclose(other.frames, one.frames, atol=1e-2)
+    np.testing.assert_allclose(other.surface(), one.surface(), atol=1e-3)
+    np.testing.assert_allclose(other.effective_points, one.effective_points, atol=1e-3)
+
+
+@settings(max_examples=20, deadline=None)
+@given(seed=seeds, start=shifts, goal=shifts, section=sections)
+def test_bent_sections_change_by_a_stated_slope_at_most(
+    seed: int, start: tuple, goal: tuple, section: str
+) -> None:
+    moved = ends_moved(encode(bundle(seed), section=section, stations=80), start, goal)
+    slopes = np.abs(np.diff(moved.radii, axis=0)) / np.diff(moved.arc_length)[:, None]
+
+    assert slopes.max() <= GREATEST_SLOPE + 1e-9
+
+
+@settings(max_examples=20, deadline=None)
+@given(seed=seeds, start=shifts, goal=shifts)
+def test_runs_in_the_bent_tube_do_not_jump(seed: int, start: tuple, goal: tuple) -> None:
+    moved = ends_moved(encode(bundle(seed), stations=80), start, goal)
+    runs = reproduce(moved, moved.directrix[0] + 0.95 * (moved.surface()[0] - moved.directrix[0]))
+
+    assert worst_step_ratio(runs.positions).max() < JUMP
+
+
+@pytest.mark.parametrize("across", [0.5, 1.0, 1.5])
+def test_widths_follow_the_map_across_the_tube(across: float) -> None:
+    cylinder = encode([line((0.0, y, z), (0.5, y, z)) for y, z in ((0.03, 0.0), (-0.03, 0.0), (0.0, 0.03))])
+    corners = np.concatenate((np.zeros((1, 3)), np.eye(3)))
+    moved = generalize(cylinder, register(corners, corners * [1.0, across, across]))
+
+    np.testing.assert_allclose(moved.radii, across * cylinder.radii, rtol=1e-6)
+
+
+def test_a_fold_that_only_the_boundary_sees_is_reported() -> None:
+    cylinder = encode([line((0.0, y, 0.0), (0.5, y, 0.0)) for y in (0.05, -0.05)], section="circle")
+    beside = np.array([[0.2, 0.05, 0.0], [0.3, 0.05, 0.0]])
+    source = np.concatenate((cylinder.directrix[[0, 100, 199]], beside, [[0.25, 0.0, 0.2]]))
+    target = source.copy()
+    target[3:5] = target[[4, 3]]
+    spline = register(source, target)
+    told = generalize(cylinder, spline).diagnostics.folded
+    on_the_directrix = turns_inside_out(spline, cylinder.directrix)
+
+    assert told[on_the_directrix].all()
+    assert told.sum() > on_the_directrix.sum()
+
+
+def test_orientations_do_not_jump_at_an_end_with_a_landmark() -> None:
+    shown = [
+        Demonstration(d.times, d.positions, np.tile([1.0, 0, 0, 0], (len(d.times), 1))) for d in bundle(5)
+    ]
+    cylinder = encode(shown)
+    frame = np.array([1.0, 0.0, 0.0, 0.0])
+    before = [Landmark(cylinder.directrix[0]), Landmark(cylinder.directrix[-1], frame)]
+    after = [Landmark(before[0].position + 0.1), Landmark(before[1].position, np.array([0.9, 0.0, 0.0, 0.4]))]
+    turns = generalize(cylinder, register(before, after)).orientations
+
+    assert turns is not None
+    step = np.arccos(np.clip(np.einsum("ij,ij->i", turns[1:], turns[:-1]), -1.0, 1.0))
+    assert max(step[0], step[-1]) <= 2.0 * max(step[1], step[-2])
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 6])
+def test_landmarks_that_all_go_to_one_place_leave_a_finite_tube(count: int) -> None:
+    cylinder = encode(bundle(6), stations=60)
+    source = cylinder.directrix[np.linspace(0, 59, count).astype(int)]
+    moved = generalize(cylinder, register(source, np.tile([0.1, 0.2, 0.3], (count, 1))))
+
+    assert np.isfinite(moved.surface()).all()
+    assert np.isfinite(reproduce(moved, moved.directrix[0]).positions).all()
+
+
+@pytest.mark.parametrize("apart", [0.0, 1e-9, 1e-6, 1e-3])
+def test_a_goal_dragged_onto_the_start_leaves_a_finite_tube(apart: float) -> None:
+    cylinder = encode([line((0.0, y, 0.0), (1.0, y, 0.0)) for y in (0.0, 0.1)])
+    source = np.concatenate((cylinder.directrix[[0, -1]], [[0.5, 0.3, 0.0]]))
+    target = source.copy()
+    target[1] = target[0] + [apart, 0.0, 0.0]
+    moved = generalize(cylinder, register(source, target))
+
+    assert np.isfinite(moved.surface()).all()
+    assert np.isfinite(reproduce(moved, moved.directrix[0]).positions).all()
