@@ -25,6 +25,7 @@ WHAT: Final[Mapping[LandmarkKind, str]] = {
     "object": "An object can also be turned; the motion near it turns with it.",
     "obstacle": "An obstacle is something to go around: the tube keeps its distance when it is moved.",
 }
+FULL: Final = "There are twelve landmarks, which is enough. Remove one before you add another."
 WHERE: Final = ("At the playhead", "Not now")
 
 
@@ -50,13 +51,10 @@ class PlacingPanel:
         if not self._changed(state.document.landmarks, state.view.placing, state.model.cylinder is None):
             return
         self._kinds = tuple(kind for kind in KINDS if kind not in ("start", "goal") or kind not in present)
-        assign(
-            self._choice,
-            options=tuple(KINDS[kind] for kind in self._kinds),
-            disabled=len(state.document.landmarks) >= edits.MOST_LANDMARKS,
-        )
+        full = len(state.document.landmarks) >= edits.MOST_LANDMARKS
+        assign(self._choice, options=tuple(KINDS[kind] for kind in self._kinds), visible=not full)
         assign(self._where, visible=state.view.placing is not None)
-        assign(self._what, content=words.note(words.escape(asked(state.view.placing))))
+        assign(self._what, content=words.note(words.escape(FULL if full else asked(state.view.placing))))
 
     def _choose(self, option: int) -> None:
         kind = self._kinds[option]

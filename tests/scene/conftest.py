@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import queue
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache
+from operator import ge
 from typing import Any
 
 import numpy as np
@@ -80,6 +81,8 @@ class Recorder:
     def __init__(self) -> None:
         self.drags: list[Drag] = []
         self.sought: list[float] = []
+        self.edits: list[Callable[[Document], Document]] = []
+        self.looks: list[dict[str, Any]] = []
         self._news = threading.Condition()
 
     def drag(self, drag: Drag) -> None:
@@ -92,13 +95,25 @@ class Recorder:
             self.sought.append(time)
             self._news.notify_all()
 
-    def wait(self, *, drags: int = 0, seeks: int = 0) -> None:
-        """Wait until so many have arrived."""
+    def edit(self, f: Callable[[Document], Document], name: str, key: str | None = None) -> None:  # noqa: ARG002
         with self._news:
-            arrived = self._news.wait_for(
-                lambda: len(self.drags) >= drags and len(self.sought) >= seeks, timeout=10.0
-            )
-        assert arrived, f"{len(self.drags)} drags, {len(self.sought)} seeks"
+            self.edits.append(f)
+            self._news.notify_all()
+
+    def look(self, **changes: Any) -> None:
+        with self._news:
+            self.looks.append(changes)
+            self._news.notify_all()
+
+    def wait(self, *, drags: int = 0, seeks: int = 0, edits: int = 0, looks: int = 0) -> None:
+        """Wait until so many have arrived."""
+        wanted = (drags, seeks, edits, looks)
+        with self._news:
+            arrived = self._news.wait_for(lambda: all(map(ge, self._counts(), wanted)), timeout=10.0)
+        assert arrived, f"{self._counts()} drags, seeks, edits and looks"
+
+    def _counts(self) -> tuple[int, ...]:
+        return len(self.drags), len(self.sought), len(self.edits), len(self.looks)
 
 
 @dataclass
