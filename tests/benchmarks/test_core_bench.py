@@ -10,18 +10,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gc_core import Demonstration, GeneralizedCylinder, Landmark, encode, generalize, register
+from gc_core import Demonstration, GeneralizedCylinder, encode
 from gc_core.alignment import ALIGNMENTS
 from gc_core.frames import arc_length
 from gc_core.sections import SECTIONS
 from tests.core.shapes import bundle
 from tests.helpers_data import load
-
-
-@pytest.fixture(scope="module")
-def cylinder() -> GeneralizedCylinder:
-    return encode(bundle(0, 5, 1500))
-
 
 Arguments = tuple[tuple[list[Demonstration]], dict[str, Any]]
 
@@ -92,24 +86,3 @@ def test_encode_again_when_one_of_five_demonstrations_changed(benchmark: Any) ->
         return encode([Demonstration(shown[0].times, shown[0].positions + 0.001), *shown[1:]])
 
     benchmark(again)
-
-
-@pytest.mark.benchmark(group="generalize")
-@pytest.mark.parametrize("count", [1, 2, 4])
-def test_generalize_by_landmarks(benchmark: Any, cylinder: GeneralizedCylinder, count: int) -> None:
-    source = cylinder.directrix[np.linspace(0, 199, count).astype(int)]
-    target = source + np.random.default_rng(1).normal(scale=0.05, size=(count, 3))
-
-    benchmark(lambda: generalize(cylinder, register(source, target)))
-
-
-@pytest.mark.benchmark(group="generalize")
-def test_generalize_by_two_frames(benchmark: Any, cylinder: GeneralizedCylinder) -> None:
-    ends = cylinder.directrix[[0, -1]]
-    source = [Landmark(end, np.array([1.0, 0.0, 0.0, 0.0])) for end in ends]
-    target = [
-        Landmark(ends[0] + 0.05, np.array([1.0, 0.2, 0.0, 0.0])),
-        Landmark(ends[1], np.array([1.0, 0, 0.3, 0])),
-    ]
-
-    benchmark(lambda: generalize(cylinder, register(source, target)))

@@ -220,7 +220,7 @@ def left_out(name: str) -> dict[str, FloatArray]:
 
 HEADINGS: Final = (
     "set | section | end error [mm] | not finite | folds: moves | untold | ratio | centres outside | dR/ds "
-    "| crossing: moves | unnamed | runs out | jump: worst | shape: median [%] | worst [%]"
+    "| crossing: moves | unnamed | runs out | jump: unfolded | folded | shape: median [%] | worst [%]"
 )
 
 
@@ -233,8 +233,14 @@ def move_line(name: str, section: str, moves: Sequence[Moved]) -> str:
         f"| {max(m.ratio for m in moves):.6f} | {sum(m.centres_outside for m in moves)} "
         f"| {max(m.slope for m in moves):.2f} | {sum(m.crossing > 0 for m in moves)} "
         f"| {sum(m.unnamed for m in moves)} | {sum(m.outside for m in moves)} "
-        f"| {max(m.jump for m in moves):.2f} | {np.median(shape):.2f} | {max(shape):.2f} |"
+        f"| {worst_jump(moves, folded=False):.2f} | {worst_jump(moves, folded=True):.2f} "
+        f"| {np.median(shape):.2f} | {max(shape):.2f} |"
     )
+
+
+def worst_jump(moves: Sequence[Moved], *, folded: bool) -> float:
+    """Worst jump of a run after moves that fold the tube somewhere, or after those that do not."""
+    return max((m.jump for m in moves if (m.folds > 0) == folded), default=0.0)
 
 
 def error_lines(title: str, found: dict[str, FloatArray]) -> Iterator[str]:
@@ -245,7 +251,8 @@ def error_lines(title: str, found: dict[str, FloatArray]) -> Iterator[str]:
         total, single = rows.sum(axis=0) / base.sum(axis=0), rows / base
         yield (
             f"| {title} | {name} | {millimetres[0]:.1f} | {millimetres[1]:.1f} "
-            f"| {total[0]:.2f} | {total[1]:.2f} | {np.median(single[:, 0]):.2f} | {np.median(single[:, 1]):.2f} | {single.max():.2f} |"
+            f"| {total[0]:.2f} | {total[1]:.2f} "
+            f"| {np.median(single[:, 0]):.2f} | {np.median(single[:, 1]):.2f} | {single.max():.2f} |"
         )
 
 
@@ -269,7 +276,7 @@ mended.
 - *ratio*: worst effective point by its polygon, at most 1 inside. *dR/ds*: along the directrix.
 - *crossing*: moves after which sections cross; *unnamed*: stations that cut a neighbour and are not named.
 - *runs out*: of {starts} runs a move from eta <= 1, how many leave the tube; *jump*: longest step by the
-  median of the 21 steps around it.
+  median of the 21 steps around it, after moves that fold nothing, and after those that do.
 - *shape*: directrix against the taught one after the best similarity (Procrustes), root mean square by
   its length.
 
@@ -282,9 +289,9 @@ TRANSFER: Final = """
 
 `tests.core.objects`: {motions} motions of each kind, five demonstrations at pose A and five at pose B; the
 object is moved by 10 to 25 cm and turned by 20 to 90 degrees about the vertical, or moved alone. Errors of
-the middle line against the five at B: DTW per sample and Frechet distance [mm]; by the ramp's, as a ratio of the
-means, as a median over motions, and at worst. *taught there* is the middle line of the demonstrations at B:
-what people differ by among themselves.
+the middle line against the five at B: DTW per sample and Frechet distance [mm]; by the ramp's, as a ratio of
+the means, as a median over motions, and at worst. *taught there* is the middle line of the demonstrations at
+B: what people differ by among themselves.
 """
 
 PUBLIC: Final = """

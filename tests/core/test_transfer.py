@@ -1,0 +1,129 @@
+"""Tubes that move with landmarks: every promise holds after any move, and they go where people would go.
+
+Measured by `tests.measurements.transfer`, which makes docs/transfer.md with ten times as many moves, at
+200 stations.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from gc_core import GeneralizedCylinder, encode
+from gc_core.radius import GREATEST_SLOPE
+from gc_core.sections import SECTIONS
+from tests.core.objects import KINDS
+from tests.helpers_data import ALL_SETS, POSE_SETS, load
+from tests.measurements import geometry, runs
+from tests.measurements.transfer import Moved, built_in, carried, left_out, move, skill, worst_jump
+
+MOVES = 20
+MOTIONS = 12
+
+every_tube = pytest.mark.parametrize("name", [*built_in(), *ALL_SETS])
+every_section = pytest.mark.parametrize("section", sorted(SECTIONS))
+
+
+@cache
+def tube(name: str, section: str) -> GeneralizedCylinder:
+    shown = load(name) if name in ALL_SETS else skill(name)
+    return encode(shown, section=section, align_by="arc_length", stations=100)
+
+
+@cache
+def moves(name: str, section: str) -> list[Moved]:
+    return [move(tube(name, section), seed) for seed in range(MOVES)]
+
+
+@every_tube
+@every_section
+def test_the_ends_are_where_the_landmarks_are(name: str, section: str) -> None:
+    assert max(m.end_error for m in moves(name, section)) < 1.0
+
+
+@every_tube
+@every_section
+def test_every_number_of_a_moved_tube_is_finite(name: str, section: str) -> None:
+    assert all(m.finite for m in moves(name, section))
+
+
+@every_tube
+@every_section
+def test_folds_are_told_where_the_determinant_says_so(name: str, section: str) -> None:
+    assert sum(m.untold for m in moves(name, section)) == 0
+
+
+@every_tube
+@every_section
+def test_effective_points_and_centres_stay_inside(name: str, section: str) -> None:
+    assert max(m.ratio for m in moves(name, section)) <= geometry.HELD
+    assert sum(m.centres_outside for m in moves(name, section)) == 0
+
+
+@every_tube
+@every_section
+def test_sections_of_a_moved_tube_widen_by_a_stated_slope_at_most(name: str, section: str) -> None:
+    assert max(m.slope for m in moves(name, section)) <= GREATEST_SLOPE + 1e-6
+
+
+@every_tube
+@every_section
+def test_stations_that_cut_a_neighbour_after_a_move_are_named(name: str, section: str) -> None:
+    assert sum(m.unnamed for m in moves(name, section)) == 0
+
+
+@every_tube
+@every_section
+def test_no_run_in_a_moved_tube_leaves_it(name: str, section: str) -> None:
+    assert sum(m.outside for m in moves(name, section)) == 0
+
+
+@every_tube
+@every_section
+def test_no_run_jumps_in_a_moved_tube_that_is_not_folded(name: str, section: str) -> None:
+    assert worst_jump(moves(name, section), folded=False) <= runs.JUMP
+
+
+@every_tube
+def test_the_shape_is_kept(name: str) -> None:
+    shape = [m.shape for m in moves(name, "circle")]
+
+    assert np.median(shape) < 5.0
+    assert max(shape) < 15.0
+
+
+@cache
+def errors(kind: str, turned: bool) -> dict[str, np.ndarray]:
+    return carried(kind, turned=turned, motions=MOTIONS)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("turned", [True, False])
+def test_a_start_point_and_an_object_s_frame_halve_the_error_of_the_ramp(kind: str, turned: bool) -> None:
+    found = errors(kind, turned)
+    mine, ramp = (found[name].sum(axis=0) for name in ("start point, object frame", "ramp"))
+
+    assert (mine <= 0.5 * ramp).all()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_turned_object_needs_its_frame(kind: str) -> None:
+    found = errors(kind, True)
+    points, frame = (
+        found[name].sum(axis=0) for name in ("start and goal points", "start point, object frame")
+    )
+
+    assert (frame < 0.6 * points).all()
+
+
+@pytest.mark.parametrize("name", POSE_SETS)
+def test_the_tube_s_middle_goes_where_the_spline_takes_the_mean_path(name: str) -> None:
+    found = left_out(name)
+    tube_s, spline_s = (
+        found[layout]
+        for layout in ("start point, tool's frame at the end", "the same spline, of the mean path alone")
+    )
+
+    np.testing.assert_allclose(tube_s, spline_s, rtol=1e-9)
