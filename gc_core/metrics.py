@@ -121,8 +121,8 @@ def sse(a: FloatArray, b: FloatArray) -> float:
 
     Raises
     ------
-    ShapeError
-        If the paths differ in length.
+    ShapeError, NotFiniteError, TooFewSamplesError
+        If they are no paths, or differ in length.
     """
     one, two = _path(a, "a"), _path(b, "b")
     if one.shape != two.shape:
@@ -147,8 +147,8 @@ def jerk(positions: FloatArray, times: FloatArray) -> float:
 
     Raises
     ------
-    TooFewSamplesError, TimesNotIncreasingError
-        If there are less than four samples, or two at one time.
+    ShapeError, NotFiniteError, TooFewSamplesError, TimesNotIncreasingError
+        If they are no path with times, of at least four samples, or two are at one time.
     """
     value, clock = _path(positions, "positions"), finite(times, "times", (len(positions),))
     if len(value) < 4:

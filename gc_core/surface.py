@@ -55,7 +55,8 @@ def gently_changing(directrix: FloatArray, frames: FloatArray, radii: FloatArray
     Returns
     -------
     (N, M) array
-        Nowhere less than `radii`; neighbours differ by at most `GREATEST_SLOPE` of the advance [m].
+        Nowhere less than `radii`; neighbours differ by at most `GREATEST_SLOPE` of the advance, which is that
+        of the boundary as given: what was widened on the inside of a bend advances a little less [m].
     """
     return slope_limited(radii, boundary_advance(directrix, frames, radii))
 
