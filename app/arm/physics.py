@@ -20,9 +20,9 @@ from scipy.spatial.transform import (  # pyright: ignore[reportMissingTypeStubs]
 
 from app.arm import urdf
 from app.arm.cache import prepared_folder
-from app.arm.errors import ArmClosedError, ArmInputError
+from app.arm.errors import ArmClosedError, ArmInputError, ArmModelError
 from app.arm.physics_engine import engine
-from app.arm.physics_report import Clearance
+from app.arm.physics_report import Distances
 from app.arm.protocol import FloatArray
 from app.arm.shapes import Primitive, Shape, pose_of, primitives, surface_distance
 
@@ -54,6 +54,8 @@ class World:
     ------
     PhysicsMissingError
         If pybullet cannot be used; on entering.
+    ArmModelError
+        If the folder has no model; on entering.
     ArmInputError
         If two objects have one name.
     """
@@ -70,6 +72,7 @@ class World:
         self._engine: Any = None
 
     def __enter__(self) -> World:
+        self.close()
         folder = prepared_folder() if self._folder is None else self._folder
         self._engine = engine()
         self._client = int(self._engine.connect(self._engine.DIRECT))
@@ -133,6 +136,13 @@ class World:
             default=None,
         )
 
+    def distances_to(self, name: str) -> list[tuple[float, str]]:
+        """Give distances from a thing to moving links, negative inside [m], and the names of the links."""
+        points = self.call("getClosestPoints", self.arm, self.bodies[name], _RANGE)
+        # Without the base: what touches it does so however the arm moves.
+        links = [(point[8], self.links.get(point[3], urdf.BASE_LINK)) for point in points]
+        return [(float(distance), link) for distance, link in links if link != urdf.BASE_LINK]
+
     def hand_distance(self, name: str) -> float:
         """Give the distance between a thing and the hand with its fingers [m]."""
         points = self.call("getClosestPoints", self.arm, self.bodies[name], _RANGE)
@@ -157,7 +167,7 @@ class World:
             self.call("createConstraint", self.arm, self.hand, self.bodies[name], -1, kind, axis, *ends)
         )
 
-    def clearance(self, joints: npt.ArrayLike, names: Sequence[str] | None = None) -> Clearance:
+    def clearance(self, joints: npt.ArrayLike, names: Sequence[str] | None = None) -> Distances:
         """Measure how far every moving link is from the things around it, along a path.
 
         Parameters
@@ -170,7 +180,7 @@ class World:
 
         Returns
         -------
-        Clearance
+        Distances
             Signed distances: negative where bodies overlap.
 
         Raises
@@ -181,25 +191,26 @@ class World:
         path = joint_path_of(joints)
         fixed = [shape.name for shape in self.objects if shape.mass == 0.0]
         wanted = tuple(fixed if names is None else names)
-        # Without the base: what touches it does so however the arm moves.
-        moving = {index: name for index, name in self.links.items() if name != urdf.BASE_LINK}
+        moving = [name for name in self.links.values() if name != urdf.BASE_LINK]
+        rows = {name: row for row, name in enumerate(moving)}
         distances = np.full((len(path), len(moving), len(wanted)), np.inf)
-        rows = {index: row for row, index in enumerate(moving)}
         for at, configuration in enumerate(path):
             self.place(configuration)
             for column, name in enumerate(wanted):
-                for point in self.call("getClosestPoints", self.arm, self.bodies[name], _RANGE):
-                    row = rows.get(point[3])
-                    if row is None:
-                        continue
-                    distances[at, row, column] = min(distances[at, row, column], point[8])
-        return Clearance(tuple(moving.values()), wanted, distances)
+                for distance, link in self.distances_to(name):
+                    row = rows[link]
+                    distances[at, row, column] = min(distances[at, row, column], distance)
+        return Distances(tuple(moving), wanted, distances)
 
     def _fill(self, folder: Path) -> None:
         self.call("setGravity", 0.0, 0.0, _GRAVITY)
         flags = self.constant("URDF_USE_INERTIA_FROM_FILE")
-        file = str(folder / urdf.ROBOT_FILE)
-        self.arm = int(self.call("loadURDF", file, useFixedBase=True, flags=flags))
+        file = folder / urdf.ROBOT_FILE
+        if not file.is_file():
+            raise ArmModelError(
+                f"{folder} has no {urdf.ROBOT_FILE}", "Leave the folder out or prepare it again."
+            )
+        self.arm = int(self.call("loadURDF", str(file), useFixedBase=True, flags=flags))
         count = range(self.call("getNumJoints", self.arm))
         facts = [self.call("getJointInfo", self.arm, index) for index in count]
         named = {fact[1].decode(): index for index, fact in enumerate(facts)}

@@ -17,9 +17,10 @@ from scipy.interpolate import (  # pyright: ignore[reportMissingTypeStubs]  # Sc
     PchipInterpolator,
 )
 
-from app.arm.errors import ArmInputError
+from app.arm.errors import ArmError, ArmInputError
 from app.arm.physics import World, joint_path_of
 from app.arm.physics_report import Carried, Playback, Touch, contacts_of
+from app.arm.physics_words import part_in_words
 from app.arm.protocol import FloatArray
 
 STEPS_PER_SECOND = 240
@@ -35,6 +36,19 @@ _PAUSE = 0.1
 """A contact interrupted for less than this goes on [s]."""
 _CLEAR = 1e-3
 """A thing let go is pushed by the hand again when it is this far from it [m]."""
+_TOUCHING = 0.002
+"""Bodies deeper in each other than this at the start would be thrown apart [m]."""
+
+
+class StartsInsideError(ArmError):
+    """A playback begins with the arm in a thing."""
+
+    def __init__(self, link: str, thing: str, depth: float) -> None:
+        super().__init__(
+            f"The {part_in_words(link)} is {100.0 * depth:.1f} cm deep in the {thing} where the path begins; "
+            f"physics would throw it out. Move the {thing} or begin the path elsewhere."
+        )
+        self.link, self.object, self.depth = link, thing, depth
 
 
 def play(
@@ -69,6 +83,8 @@ def play(
     ------
     ArmInputError
         If shapes do not fit, numbers are not finite or times do not increase.
+    StartsInsideError
+        If the arm overlaps a thing at the first configuration.
     """
     clock, path = _timed(times, joints)
     closed = _closed(gripper, clock)
@@ -180,8 +196,12 @@ class _Gripper:
 
 
 def _begin(world: World, joints: FloatArray, rates: FloatArray) -> None:
-    world.place(joints, rates)
+    world.place(joints, np.clip(rates, -world.speed_limits, world.speed_limits))
     world.call("setTimeStep", 1.0 / STEPS_PER_SECOND)
+    for name in world.bodies:
+        for distance, link in world.distances_to(name):
+            if distance < -_TOUCHING:
+                raise StartsInsideError(link, name, -distance)
 
 
 def _drive(world: World, joints: FloatArray, rates: FloatArray, effort: float) -> None:

@@ -27,7 +27,7 @@ class Nearest:
 
 
 @dataclass(frozen=True, eq=False)
-class Clearance:
+class Distances:
     """Distances between the arm's links and things, along a path."""
 
     links: tuple[str, ...]
@@ -130,12 +130,12 @@ class Touch:
     depth: float
 
 
-def encounters(clearance: Clearance, times: npt.ArrayLike, margin: float = 0.0) -> tuple[Encounter, ...]:
+def encounters(clearance: Distances, times: npt.ArrayLike, margin: float = 0.0) -> tuple[Encounter, ...]:
     """Say where a path leads the arm into things.
 
     Parameters
     ----------
-    clearance : Clearance
+    clearance : Distances
         Of the path, (K, L, O).
     times : (K,) array
         When the arm is there [s].

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from app.arm import urdf
-from app.arm.physics_report import Clearance, Encounter, Playback
+from app.arm.physics_report import Distances, Encounter, Playback
 
 FOLLOWED = 0.005
 """A tool that was never farther than this from where it should have been followed its path [m]."""
@@ -58,12 +58,12 @@ def inside_tube(ratios: npt.ArrayLike, times: npt.ArrayLike) -> str:
     )
 
 
-def clear_of_things(clearance: Clearance, times: npt.ArrayLike) -> str:
+def clear_of_things(clearance: Distances, times: npt.ArrayLike) -> str:
     """Say how clear the whole arm stays of what stands around it.
 
     Parameters
     ----------
-    clearance : Clearance
+    clearance : Distances
         Of the path.
     times : (K,) array
         When the arm is there [s].

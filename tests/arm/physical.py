@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import xml.etree.ElementTree as ET
+from functools import cache
 from importlib import import_module
 from typing import Any
 
 import numpy as np
 
 from app.arm import FloatArray, Jaco, urdf
+from app.arm.cache import prepared_folder
 from app.arm.shapes import Primitive, Shape, pose_of, primitives
 
 _coal: Any = import_module("coal")  # the collision library that placo asks
@@ -17,7 +20,7 @@ def kinematic_distances(jaco: Jaco, joints: FloatArray, shape: Shape) -> dict[st
     """Signed distance of every moving link's box to a shape [m], without any physics."""
     found: dict[str, float] = {}
     for link, pose in jaco.link_poses(joints, 0.0).items():
-        box = urdf._BOXES.get(link.removeprefix(urdf.PREFIX))
+        box = urdf.BOXES.get(link.removeprefix(urdf.PREFIX))
         if box is None or link == urdf.BASE_LINK:
             continue
         centre, size = box
@@ -34,6 +37,21 @@ def swing(n_samples: int = 300, duration: float = 3.0) -> tuple[FloatArray, Floa
         [0.3 - 0.6 * eased, -0.45 - 0.1 * np.sin(np.pi * eased), 0.25 + 0.15 * np.sin(np.pi * eased)], axis=1
     )
     return duration * share, places, places[n_samples // 2]
+
+
+@cache
+def _boxes() -> dict[str, tuple[FloatArray, FloatArray]]:
+    """Centre and size of the box of every link, as the prepared model has them [m]."""
+    found: dict[str, tuple[FloatArray, FloatArray]] = {}
+    for link in ET.parse(prepared_folder() / urdf.ROBOT_FILE).getroot().findall("link"):
+        for origin, box in zip(
+            link.iterfind("collision/origin"), link.iterfind("collision/geometry/box"), strict=True
+        ):
+            numbers = [
+                np.array(text.split(), dtype=float) for text in (origin.attrib["xyz"], box.attrib["size"])
+            ]
+            found[link.attrib["name"]] = (numbers[0], numbers[1])
+    return found
 
 
 def _between(body: Any, place: Any, T_world_shape: FloatArray, part: Primitive) -> float:

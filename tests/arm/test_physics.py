@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from app.arm import ArmClosedError, ArmInputError, FloatArray, Jaco
+from app.arm import ArmClosedError, ArmInputError, ArmModelError, FloatArray, Jaco
+from app.arm.conditions import Conditions
 from app.arm.physics import World
-from app.arm.physics_playback import GRASP_REACH, play
-from app.arm.physics_report import Clearance, encounters
+from app.arm.physics_engine import engine
+from app.arm.physics_playback import GRASP_REACH, StartsInsideError, play
+from app.arm.physics_report import Distances, encounters
 from app.arm.shapes import Box, Cylinder, Ring, Shape, Sphere
 from tests.arm.physical import kinematic_distances, swing
 
@@ -56,6 +59,15 @@ def test_physics_and_kinematics_measure_the_same_distances(jaco: Jaco, shape: Sh
         np.testing.assert_allclose(distances, [known[link] for link in measured.links], atol=AGREED)
 
 
+def test_the_arm_s_own_clearance_is_the_one_of_physics(jaco: Jaco) -> None:
+    _, joints, _ = path_of(jaco)
+    with World(SHAPES) as world:
+        measured = world.clearance(joints[::5])
+    own = jaco.under(Conditions(obstacles=tuple(SHAPES))).clearance(joints[::5])
+
+    np.testing.assert_allclose(measured.distances.min(axis=(1, 2)), own.obstacles, atol=AGREED)
+
+
 def test_a_path_led_through_an_obstacle_is_told_with_link_time_and_depth(jaco: Jaco) -> None:
     times, joints, middle = path_of(jaco)
     ball = Sphere("ball", (float(middle[0]), float(middle[1]), float(middle[2])), 0.03)
@@ -85,7 +97,7 @@ def test_a_path_that_keeps_clear_meets_nothing(jaco: Jaco) -> None:
 
 def test_one_stay_ends_where_the_link_comes_out_and_a_second_one_is_told_again() -> None:
     along = np.array([0.1, -0.01, -0.03, 0.02, -0.02, 0.1])
-    found = encounters(Clearance(("hand",), ("box",), along[:, None, None]), np.arange(6.0))
+    found = encounters(Distances(("hand",), ("box",), along[:, None, None]), np.arange(6.0))
 
     assert [(stay.begins, stay.deepest, stay.ends) for stay in found] == [(1.0, 2.0, 2.0), (4.0, 4.0, 4.0)]
     np.testing.assert_allclose([stay.depth for stay in found], [0.03, 0.02])
@@ -176,6 +188,41 @@ def test_what_is_held_at_the_end_is_told_so(jaco: Jaco) -> None:
         played = play(world, times[:half], joints[:half], gripper[:half])
 
     assert [held.released for held in played.carried] == [None]
+
+
+def test_a_path_that_begins_in_a_thing_is_not_played(jaco: Jaco) -> None:
+    times, joints, _ = path_of(jaco)
+    x, y, z = jaco.tool_pose(joints[0])[:3, 3].tolist()
+    with World([Box("box", (x, y, z), (0.1, 0.1, 0.1))]) as world, pytest.raises(StartsInsideError) as caught:
+        play(world, times, joints)
+
+    assert caught.value.object == "box"
+    assert caught.value.depth > 0.01
+
+
+def test_an_error_inside_closes_the_world() -> None:
+    with pytest.raises(KeyError), World() as world:
+        raise KeyError
+
+    with pytest.raises(ArmClosedError):
+        world.tool_position()
+
+
+def free_client() -> int:
+    """The number that the next world would get."""
+    number = engine().connect(engine().DIRECT)
+    engine().disconnect(number)
+    return number
+
+
+def test_a_world_leaves_no_client_behind_even_if_it_cannot_be_filled(tmp_path: Path) -> None:
+    before = free_client()
+    with World():
+        assert free_client() != before
+    with pytest.raises(ArmModelError), World(folder=tmp_path):
+        pass
+
+    assert free_client() == before
 
 
 def test_a_closed_world_is_not_used_and_may_be_closed_again(jaco: Jaco) -> None:

@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from app.arm import FloatArray, urdf
-from app.arm.physics_report import Carried, Clearance, Contact, Encounter, Playback
+from app.arm.physics_report import Carried, Contact, Distances, Encounter, Playback
 from app.arm.physics_words import clear_of_things, inside_tube, met, part_in_words, played
 
 FOREARM = f"{urdf.PREFIX}link_3"
 TIMES = np.array([0.0, 1.0, 2.0])
 
 
-def clearance(*along: float) -> Clearance:
-    return Clearance((FOREARM,), ("box",), np.array(along)[:, None, None])
+def clearance(*along: float) -> Distances:
+    return Distances((FOREARM,), ("box",), np.array(along)[:, None, None])
 
 
 def playback(errors: FloatArray, contacts: tuple[Contact, ...], carried: tuple[Carried, ...]) -> Playback:
@@ -44,7 +44,7 @@ def test_an_arm_in_a_thing_says_how_deep_and_what_to_do() -> None:
 
 
 def test_an_arm_alone_has_nothing_to_keep_clear_of() -> None:
-    assert "nothing" in clear_of_things(Clearance((FOREARM,), (), np.empty((3, 1, 0))), TIMES)
+    assert "nothing" in clear_of_things(Distances((FOREARM,), (), np.empty((3, 1, 0))), TIMES)
 
 
 def test_an_encounter_has_link_thing_time_and_depth() -> None:

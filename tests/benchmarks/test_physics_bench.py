@@ -1,4 +1,4 @@
-"""How long physics takes: a world, the clearance of a path, a playback, and one update of a yielding replay."""
+"""How long physics takes: opening a world, the clearance of a path, a playback; and a yielding replay."""
 
 from __future__ import annotations
 
