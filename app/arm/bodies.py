@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from importlib import import_module
-from math import inf
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from app.arm import urdf
 from app.arm.protocol import FloatArray
@@ -39,8 +41,14 @@ class Bodies:
         robot.load_collision_pairs(str(folder / urdf.PAIRS_FILE))
         bodies: Any = robot.collision_model.geometryObjects
         self._links: list[str] = [str(body.name).removesuffix("_0") for body in bodies]
+        # Without the base: what touches it does so however the arm moves.
+        boxes = [urdf.BOXES[link.removeprefix(urdf.PREFIX)] for link in self._links[1:]]
+        self._middles = np.array([[*centre, 1.0] for centre, _ in boxes])
+        self._radii = np.array([0.5 * float(np.linalg.norm(size)) for _, size in boxes])
         self._obstacles: tuple[Shape, ...] = ()
         self._names: list[str] = []
+        self._centres, self._sizes = np.empty((0, 3)), np.empty(0)
+        self._watched = np.zeros((len(boxes), 0), dtype=np.bool_)
 
     def surround(self, obstacles: tuple[Shape, ...]) -> None:
         """Put these obstacles around the robot, instead of those before."""
@@ -49,14 +57,52 @@ class Bodies:
         model = self._robot.collision_model
         for number in range(len(self._names)):
             model.removeGeometryObject(f"obstacle {number}")
-        parts = [(shape, part) for shape in obstacles for part in primitives(shape)]
-        for number, (shape, part) in enumerate(parts):
-            self._add(f"obstacle {number}", pose_of(shape) @ part.pose, part)
-        self._obstacles, self._names = obstacles, [shape.name for shape, _ in parts]
+        parts = [
+            (shape, part, pose_of(shape) @ part.pose) for shape in obstacles for part in primitives(shape)
+        ]
+        base = model.geometryObjects[0]
+        for number, (_, part, pose) in enumerate(parts):
+            placement = _pinocchio.SE3(pose[:3, :3], pose[:3, 3])
+            name, joint, frame = f"obstacle {number}", base.parentJoint, base.parentFrame
+            model.addGeometryObject(_pinocchio.GeometryObject(name, joint, frame, placement, _geometry(part)))
+        self._obstacles, self._names = obstacles, [shape.name for shape, _, _ in parts]
+        self._centres = np.array([pose[:3, 3] for _, _, pose in parts]).reshape(-1, 3)
+        self._sizes = np.array([_radius(part) for _, part, _ in parts])
+        self._watched = np.zeros((len(self._radii), len(parts)), dtype=np.bool_)
+
+    def around(self, position: FloatArray) -> str:
+        """Name the obstacle that a position (3,) lies in; empty when it lies in none."""
+        for shape in self._obstacles:
+            if any(_holds(pose_of(shape) @ part.pose, part, position) for part in primitives(shape)):
+                return shape.name
+        return ""
+
+    def watch(self, within: float | None) -> None:
+        """Let the robot, as it is placed, look at obstacles only that can matter: looking costs time.
+
+        Parameters
+        ----------
+        within : float or None
+            Those that may be nearer than this [m]; None: those that may be the nearest.
+        """
+        if not self._names:
+            return
+        poses: Any = [self._robot.get_T_world_frame(link) for link in self._links[1:]]
+        middles = np.einsum("lij,lj->li", np.array(poses), self._middles)[:, :3]
+        apart = np.linalg.norm(middles[:, None] - self._centres, axis=2)
+        # Bodies are nowhere farther apart than their middles, and nowhere nearer than the balls around them.
+        limit = float(apart.min()) if within is None else within
+        wanted = apart - self._radii[:, None] - self._sizes <= limit
+        for link, part in np.argwhere(wanted != self._watched).tolist():
+            model, first = self._robot.collision_model, len(self._links)
+            change = model.addCollisionPair if wanted[link, part] else model.removeCollisionPair
+            change(_pinocchio.CollisionPair(link + 1, first + part))
+        self._watched = wanted
 
     def nearest(self) -> Nearest:
         """Measure the robot as it is placed."""
-        itself, obstacle, link, name = inf, inf, "", ""
+        self.watch(None)
+        itself, obstacle, link, name = math.inf, math.inf, "", ""
         for pair in self._robot.distances():
             distance, other = float(pair.min_distance), int(pair.objB) - len(self._links)
             if other < 0:
@@ -65,15 +111,29 @@ class Bodies:
                 obstacle, link, name = distance, self._links[int(pair.objA)], self._names[other]
         return Nearest(itself, obstacle, link, name)
 
-    def _add(self, name: str, pose: FloatArray, part: Primitive) -> None:
-        model = self._robot.collision_model
-        base = model.geometryObjects[0]
-        placement = _pinocchio.SE3(pose[:3, :3], pose[:3, 3])
-        body = _pinocchio.GeometryObject(name, base.parentJoint, base.parentFrame, placement, _geometry(part))
-        index = model.addGeometryObject(body)
-        # Without the base: what touches it does so however the arm moves.
-        for number in range(1, len(self._links)):
-            model.addCollisionPair(_pinocchio.CollisionPair(number, index))
+
+def _radius(part: Primitive) -> float:
+    """Give the radius of the ball around a body [m]."""
+    if part.kind == "sphere":
+        return part.size[0]
+    if part.kind == "box":
+        return 0.5 * float(np.linalg.norm(part.size))
+    radius, length = part.size
+    return float(np.hypot(radius, 0.5 * length)) if part.kind == "cylinder" else radius + 0.5 * length
+
+
+def _holds(pose: FloatArray, part: Primitive, position: FloatArray) -> bool:
+    """Say whether a body holds a position (3,)."""
+    x, y, z = (pose[:3, :3].T @ (position - pose[:3, 3])).tolist()
+    if part.kind == "box":
+        return all(2.0 * abs(value) < size for value, size in zip((x, y, z), part.size, strict=True))
+    if part.kind == "sphere":
+        return math.hypot(x, y, z) < part.size[0]
+    radius, length = part.size
+    beyond = max(abs(z) - 0.5 * length, 0.0)
+    if part.kind == "cylinder":
+        return beyond == 0.0 and math.hypot(x, y) < radius
+    return math.hypot(x, y, beyond) < radius
 
 
 def _geometry(part: Primitive) -> Any:

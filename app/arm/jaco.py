@@ -16,7 +16,7 @@ from app.arm.conditions import FREE, Conditions
 from app.arm.errors import ArmClosedError
 from app.arm.inputs import configurations_of, duration_of, gripper_of, joints_of, path_of, position_of
 from app.arm.paths import find_path
-from app.arm.postures import OWN_BODY, reaching, way_to, why_not
+from app.arm.postures import OWN_BODY, search, way_to
 from app.arm.programs import SAFE_DISTANCE
 from app.arm.protocol import HERE, STUCK, Clearance, FloatArray, JointPath, LinkMesh, Shortfall
 from app.arm.reach import Shell
@@ -49,7 +49,7 @@ class _Seat:
         self.folder = folder
         self.solver: Solver | None = _POOL.acquire(folder, home)
         self.kinematics = self.solver.kinematics
-        self.searched: tuple[object, str | None] | None = None
+        self.searched: tuple[object, str] | None = None
         """What was asked last about a hand that is not there, and the answer: a held pointer asks again."""
 
     def use(self, conditions: Conditions) -> Solver:
@@ -219,14 +219,16 @@ class Jaco:
             return f"joint {int(room.argmin()) + 1} at its limit"
         return OWN_BODY if found.itself[0] < SAFE_DISTANCE + _NEAR_BODY else ""
 
-    def _searched(self, target: FloatArray) -> str | None:
-        """Say whether another posture reaches a target, and if none does, why; None: no idea."""
-        solver = self._use()
-        if any(True for _ in reaching(solver, target, self._home)):
+    def _searched(self, target: FloatArray) -> str:
+        """Say whether another posture reaches a target, and if none does, why; empty: no idea."""
+        found, reason = search(self._use(), target, self._home)
+        if found:
             return STUCK
-        reason = why_not(solver, target, self._home, self._conditions)
+        unlocked = Conditions(self._conditions.obstacles)
+        if unlocked != self._conditions and search(self._seat.use(unlocked), target, self._home)[0]:
+            return "the tool is locked: unlock it"
         in_the_column = bool(np.linalg.norm(target[:2]) < _COLUMN_RADIUS and target[2] < _COLUMN_TOP)
-        return "too close to its own base" if in_the_column and reason in (None, OWN_BODY) else reason
+        return "too close to its own base" if in_the_column and reason in ("", OWN_BODY) else reason
 
     def _joints(self, joints: npt.ArrayLike) -> FloatArray:
         return joints_of(joints, self._kinematics.lower, self._kinematics.upper)

@@ -13,14 +13,14 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from app.arm.conditions import FREE, Conditions
-from app.arm.programs import SAFE_DISTANCE
+from app.arm.programs import SAFE_DISTANCE, Wrist
 from app.arm.protocol import HERE, FloatArray
 from app.arm.solver import Solver
 
 HIGH = (-1.571, 2.6, 1.3, 3.142, 2.2, 0.0)
 """Folded up with the tool down, half a metre high and near the base: from here the arm may turn [rad]."""
-
+HIGHER = (-1.571, 3.0, 2.4, 3.142, 2.2, 0.0)
+"""The same, stretched upwards [rad]."""
 OWN_BODY = "its own arm is in the way"
 """Every posture that reaches a place folds the arm into itself."""
 
@@ -43,10 +43,8 @@ def seeds(start: FloatArray | None, home: FloatArray) -> Iterator[FloatArray]:
     yield from np.random.default_rng(0).uniform(_SEED_LOW, _SEED_HIGH, (_N_SEEDS, len(home)))
 
 
-def reaching(
-    solver: Solver, target: FloatArray, home: FloatArray, *, clear: bool = True
-) -> Iterator[FloatArray]:
-    """Give joints (6,) that bring the tool to a target (3,) [rad].
+def reaching(solver: Solver, target: FloatArray, home: FloatArray) -> Iterator[tuple[FloatArray, str]]:
+    """Give joints (6,) that bring the tool to a target, and what they touch.
 
     Parameters
     ----------
@@ -56,29 +54,44 @@ def reaching(
         Where the tool is wanted [m].
     home : (6,) array
         The first of the seeds [rad].
-    clear : bool
-        Leave out postures in which the arm touches itself or an obstacle.
+
+    Yields
+    ------
+    joints : (6,) array
+        Found from one seed, with the tool rather down, then with the tool as it likes [rad].
+    touched : str
+        `OWN_BODY`, the name of an obstacle, or empty when nothing is touched.
     """
-    for seed in seeds(None, home):
-        found = solver.walk(target[None], seed)
-        if found.errors[0] <= HERE and (not clear or solver.room(found.joints) >= _CLEAR):
-            yield found.joints[0]
+    wrists: tuple[Wrist, ...] = ("down", "free")
+    for wrist in wrists:
+        for seed in seeds(None, home):
+            found = solver.walk(target[None], seed, wrist=wrist)
+            if found.errors[0] <= HERE:
+                clearance = solver.clearance(found.joints)
+                own = OWN_BODY if clearance.itself[0] < _CLEAR else ""
+                yield found.joints[0], own or (clearance.names[0] if clearance.obstacles[0] < _CLEAR else "")
 
 
-def why_not(solver: Solver, target: FloatArray, home: FloatArray, conditions: Conditions) -> str | None:
-    """Say what keeps every posture from a target (3,); None when the arm is simply not made for it."""
-    if conditions.orientation is not None and any(
-        True for _ in reaching(solver.heed(Conditions(conditions.obstacles)), target, home)
-    ):
-        return "the tool is locked: unlock it"
-    touching = list(reaching(solver.heed(FREE), target, home, clear=False))
-    if not touching:
-        return None
-    clear = [joints for joints in touching if solver.room(joints[None]) >= _CLEAR]
-    if not clear:
-        return OWN_BODY
-    found = solver.heed(Conditions(conditions.obstacles)).clearance(np.array(clear))
-    return f"{found.names[int(found.obstacles.argmax())] or 'an obstacle'} is in the way"
+def search(solver: Solver, target: FloatArray, home: FloatArray) -> tuple[bool, str]:
+    """Say whether some posture brings the tool to a target (3,), and if none does, why.
+
+    Returns
+    -------
+    found : bool
+        One does, clear of the arm itself and of obstacles.
+    reason : str
+        Otherwise what all of them touch; empty when none comes there at all.
+    """
+    inside = solver.inside(target)
+    if inside:
+        return False, f"{inside} is in the way"
+    touched: list[str] = []
+    for _, name in reaching(solver, target, home):
+        if not name:
+            return True, ""
+        touched.append(name)
+    others = [name for name in touched if name != OWN_BODY]
+    return False, f"{others[0]} is in the way" if others else OWN_BODY if touched else ""
 
 
 def way_to(
@@ -90,7 +103,7 @@ def way_to(
         turns = np.round((to - posture) / (2.0 * np.pi))
         return posture + np.where(endless, 2.0 * np.pi * turns, 0.0)
 
-    ends = [near(posture, joints) for posture in reaching(solver, target, home)]
+    ends = [near(posture, joints) for posture, touched in reaching(solver, target, home) if not touched]
     ends.sort(key=lambda end: float(np.abs(end - joints).max()))
     for end in ends[:_MOST_WAYS]:
         for way in _ways(joints, end, home, near):
@@ -104,7 +117,7 @@ def _ways(
 ) -> Iterator[FloatArray]:
     """Give ways worth trying: straight, then folded up over the base, then as at home."""
     yield np.array([begin, end])
-    for posture in (np.array(HIGH), home):
+    for posture in (np.array(HIGH), home, np.array(HIGHER)):
         folded = near(posture, begin)
         folded[0] = begin[0]
         turned = near(folded, end)

@@ -22,7 +22,7 @@ _DAMPING, _DAMPING_PER_METRE = 1e-6, 0.1
 _TOOL_DOWN, _POSTURE, _AVOID = 1e-5, 1e-7, 1e3
 _LOCKED = 0.1
 """A turn of the locked tool by 1 rad costs as much as a miss of 0.3 m."""
-_TRIGGER = 0.06
+TRIGGER = 0.06
 """Bodies begin to keep away from each other at this distance [m]."""
 
 
@@ -52,7 +52,7 @@ class Program:
             apart = self.solver.add_avoid_self_collisions_constraint()
             apart.configure("apart", "soft", _AVOID)
             apart.self_collisions_margin = SAFE_DISTANCE
-            apart.self_collisions_trigger = _TRIGGER
+            apart.self_collisions_trigger = TRIGGER
 
     def rest_at(self, posture: FloatArray) -> None:
         """Prefer this posture where position and tool leave a choice."""

@@ -60,7 +60,7 @@ class Shortfall:
     reason: str
     """For instance ``12 cm beyond reach`` or ``joint 4 at its limit``; no full stop."""
     cause: str = ""
-    """What stopped a hand that is stuck, for instance ``joint 2 at its limit``; empty where that is unknown."""
+    """What stopped a hand that is stuck, for instance ``joint 2 at its limit``; empty where unknown."""
 
     @property
     def stuck(self) -> bool:

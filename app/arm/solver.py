@@ -19,7 +19,7 @@ import numpy.typing as npt
 from app.arm import urdf
 from app.arm.bodies import Bodies
 from app.arm.conditions import FREE, Conditions
-from app.arm.programs import Program, Wrist, placo
+from app.arm.programs import SAFE_DISTANCE, TRIGGER, Program, Wrist, placo
 from app.arm.protocol import Clearance, FloatArray, JointPath
 from app.arm.shapes import rotation_of
 
@@ -28,8 +28,18 @@ DRAG_SPEED = 3.0
 _SOLVES_PER_TICK = 4
 _AT_REST = 1e-6
 """When a solve moves no joint by more than this, the others of its tick would not either [rad]."""
+_TREMBLE, _SLOW = 0.05, 0.05
+"""Joints faster than this [rad/s] while the tool is slower than this [m/s] may be a tremble."""
+_TOUCH = 0.002
+"""It happens where bodies are hardly farther apart than they should be [m]."""
+_LOOK_AHEAD, _CALM = 4, 0.05
+"""Ticks that tell a tremble from a turn, and what is left of it."""
 _TRUST = 0.3
 """Largest joint step of one solve along a path [rad]."""
+_AHEAD = 0.05
+"""How far a body moves at most until obstacles are looked for again [m]."""
+_FAR_AHEAD = 0.3
+"""The same from one position of a path to the next [m]."""
 _FIRST, _OTHERS = 80, 20
 """Largest number of solves for the first position of a path and for each other one."""
 _REACHED, _STILL = 1e-4, 1e-3
@@ -67,7 +77,23 @@ class Solver:
         return [self._robot.get_T_world_frame(name) for name in names]
 
     def drag(self, joints: FloatArray, target: FloatArray, dt: float) -> FloatArray:
-        """Move the tool towards a reachable target for one tick of ``dt`` seconds."""
+        """Move the tool towards a reachable target for one tick of ``dt`` seconds.
+
+        Where two faces are parallel, the points nearest to each other leap from corner to corner, and an arm
+        that rests there would tremble: then it takes a part of what the next ticks together come to.
+        """
+        moved = self._tick(joints, target, dt)
+        if not self._may_tremble(joints, moved, dt):
+            return joints + moved
+        ahead = joints + moved
+        for _ in range(_LOOK_AHEAD - 1):
+            ahead = ahead + self._tick(ahead, target, dt)
+        mean = (ahead - joints) / _LOOK_AHEAD
+        trembles = np.abs(mean).max() < 0.5 * np.abs(moved).max()
+        return joints + (_CALM * mean if trembles else moved)
+
+    def _tick(self, joints: FloatArray, target: FloatArray, dt: float) -> FloatArray:
+        """Give the movement (6,) of one tick [rad]."""
         program = self._begin(joints, avoid=True, wrist=None)
         self._robot.set_velocity_limits(DRAG_SPEED)
         program.solver.dt = dt / _SOLVES_PER_TICK
@@ -75,7 +101,18 @@ class Solver:
         for _ in range(_SOLVES_PER_TICK):
             if self._solve(program, target) < _AT_REST:
                 break
-        return np.clip(self._joints(), joints - DRAG_SPEED * dt, joints + DRAG_SPEED * dt)
+        return np.clip(self._joints() - joints, -DRAG_SPEED * dt, DRAG_SPEED * dt)
+
+    def _may_tremble(self, joints: FloatArray, moved: FloatArray, dt: float) -> bool:
+        """Say whether joints turn though the tool rests and something is touched."""
+        if np.abs(moved).max() < _TREMBLE * dt:
+            return False
+        after = self._tip()
+        self._place(joints)
+        if math.dist(self._tip(), after) > _SLOW * dt:
+            return False
+        nearest = self._bodies.nearest()
+        return min(nearest.itself, nearest.obstacle) < SAFE_DISTANCE + _TOUCH
 
     def walk(
         self,
@@ -108,6 +145,8 @@ class Solver:
         program.solver.dt = 1.0
         joints, errors = np.empty((len(positions), len(start))), np.empty(len(positions))
         for index, position in enumerate(positions):
+            if careful:
+                self._bodies.watch(_FAR_AHEAD)
             errors[index] = self._converge(program, position, _FIRST if index == 0 else _OTHERS)
             joints[index] = self._joints()
         return JointPath(joints, errors)
@@ -129,6 +168,10 @@ class Solver:
         """Give the smallest distance of the arm from itself and from obstacles along (K, 6) [m]."""
         found = self.clearance(configurations)
         return float(min(found.itself.min(), found.obstacles.min()))
+
+    def inside(self, position: FloatArray) -> str:
+        """Name the obstacle that a position (3,) lies in; empty when it lies in none."""
+        return self._bodies.around(position)
 
     def lowest(self, joints: FloatArray) -> float:
         """Give the height of the lowest of elbow, wrist and tool [m]."""
@@ -153,6 +196,8 @@ class Solver:
         if orientation is not None:
             program.hold(rotation_of(orientation))
         self._place(joints)
+        if avoid:
+            self._bodies.watch(TRIGGER + _AHEAD)
         program.rest_at(self._posture_near(joints))
         return program
 

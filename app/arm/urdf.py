@@ -37,7 +37,7 @@ ENDLESS = 174.0
 _TOOL_RPY = "3.14159265359 0 1.57079632679"
 """Kinova's own end-effector frame; upstream here has the tool along x instead."""
 
-_BOXES = {
+BOXES = {
     "link_base": ((0.0, 0.0, 0.0784), (0.0825, 0.0825, 0.1568)),
     "link_1": ((0.0, 0.0, -0.0799), (0.0825, 0.0825, 0.1599)),
     "link_2": ((0.0, -0.205, -0.0215), (0.0825, 0.4925, 0.043)),
@@ -138,7 +138,7 @@ def clean(text: str) -> str:
     for link in root.findall("link"):
         for part in link.findall("visual") + link.findall("collision"):
             link.remove(part)
-        box = _BOXES.get(link.get("name", "").removeprefix(PREFIX))
+        box = BOXES.get(link.get("name", "").removeprefix(PREFIX))
         if box is not None:
             _add_box(link, *box)
     return ET.tostring(root, encoding="unicode")
