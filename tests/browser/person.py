@@ -6,6 +6,7 @@ that the page shows. Positions are in the robot base frame [m].
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import Final, TypeAlias
 
@@ -28,7 +29,7 @@ FIRST_SCREEN: Final = (
 SIZE: Final = (1100, 600)
 """Of the window [px]."""
 NAMES_OF_WORK: Final = """() => Object.keys(window.__viserMutable.nodeRefFromName).filter(name =>
-    /^\\/(tube|directrix|start\\/\\d+|landmarks\\/\\w+|(demonstrations|reproductions)\\/\\d+\\/(line|free))$/
+    /^\\/(tube|directrix|start\\/\\d+|landmarks\\/[^\\/]+|(demonstrations|reproductions)\\/\\d+\\/(line|free))$/
     .test(name))"""
 FIELDS: Final = "() => Array.from(document.querySelectorAll('input')).map(field => field.value)"
 ASIDE: Final = 1.5
@@ -111,6 +112,20 @@ class Person:
         tab.page.evaluate("() => document.activeElement.blur()")
         tab.wait_until(lambda: min(self._hand_to("/start/0"), self._hand_to("/landmarks/goal")) > CLEAR)
         self.wait_still()
+
+    def seek_end(self) -> None:
+        """Lead the paused hand to the end of the run by the field of the playhead; wait until it is there."""
+        playhead = self.tab.page.locator("input:visible").last
+        playhead.fill("99")
+        playhead.press("Enter")
+        self.tab.page.evaluate("() => document.activeElement.blur()")
+        end = self.line("/reproductions/0/line")[-1]
+        self.tab.wait_until(lambda: np.linalg.norm(self.tab.position("/hand") - end) < CLEAR / 4)
+        self.wait_still()
+
+    def open_folder(self, title: str) -> None:
+        """Open a folder of the panels by the beginning of its title."""
+        self.tab.page.get_by_text(re.compile(f"^{re.escape(title)}")).first.click()
 
     def _hand_to(self, name: str) -> float:
         return float(np.linalg.norm(self.tab.position("/hand") - self.tab.position(name)))
