@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from app.arm.errors import ArmInputError
 from app.arm.protocol import Arm, FloatArray
+from app.route import Route
 from app.servo import TICKS_PER_SECOND, USUAL_GAP
 
 SLOWEST, FASTEST = 0.25, 1.0
@@ -38,6 +39,9 @@ _RAMP = round(USUAL_GAP * TICKS_PER_SECOND)
 _LAG = 1e-3
 """A pulled hand that the arm cannot follow by more than this goes no farther aside [m]."""
 
+_REJOIN = 0.03
+"""Planned joints that are this near are taken up again [rad]; in a tick that is the speed of a drag."""
+
 
 @dataclass(frozen=True)
 class Feel:
@@ -58,32 +62,6 @@ SOFT = Feel("soft", 100.0)
 MEDIUM = Feel("medium", 400.0)
 FIRM = Feel("firm", 1500.0)
 FEELS = (SOFT, MEDIUM, FIRM)
-
-
-@dataclass(frozen=True, eq=False)
-class Route:
-    """What is replayed: any path of the tool with its times."""
-
-    times: FloatArray
-    """(K,) strictly increasing; K >= 2 [s]."""
-    positions: FloatArray
-    """(K, 3) tool; straight in between [m]."""
-
-    def __post_init__(self) -> None:
-        times, positions = np.array(self.times, dtype=np.float64), np.array(self.positions, dtype=np.float64)
-        if times.ndim != 1 or len(times) < 2 or positions.shape != (len(times), 3):
-            raise ArmInputError(
-                "a route", "(K,) times and (K, 3) positions, K >= 2", (times.shape, positions.shape)
-            )
-        if not (np.isfinite(times).all() and np.isfinite(positions).all() and np.all(np.diff(times) > 0.0)):
-            raise ArmInputError("a route", "finite numbers and times that increase", "others")
-        for name, array in (("times", times), ("positions", positions)):
-            array.setflags(write=False)
-            object.__setattr__(self, name, array)
-
-    def at(self, time: float) -> FloatArray:
-        """(3,) where the hand belongs at a time of the route [m]."""
-        return np.array([np.interp(time, self.times, self.positions[:, axis]) for axis in range(3)])
 
 
 @dataclass(frozen=True)
@@ -175,7 +153,7 @@ def begin(
     speed : float
         Share of the route's own speed, `SLOWEST` .. `FASTEST`.
     joints : (J,) array, optional
-        With the tool at the beginning of the route; by default as `Arm.follow` finds them [rad].
+        With the tool at the beginning of the route; by default as planned or found by `Arm.follow` [rad].
 
     Returns
     -------
@@ -190,6 +168,8 @@ def begin(
     """
     if not SLOWEST <= speed <= FASTEST:
         raise ArmInputError("the speed of a replay", f"a number from {SLOWEST} to {FASTEST}", speed)
+    if joints is None:
+        joints = route.planned(float(route.times[0]))
     if joints is None:
         joints = arm.follow(route.positions[:: max(1, len(route.positions) // 40)]).joints[0]
     return Replay(
@@ -254,7 +234,9 @@ def _one_tick(replay: Replay, arm: Arm) -> Replay:
     along = end if along > end - 1e-9 else along
     aside, drift = _yield(replay)
     belongs = replay.route.at(along)
-    joints = arm.step(replay.joints, belongs + aside, _TICK)
+    joints = _planned(replay, along, aside)
+    if joints is None:
+        joints = arm.step(replay.joints, belongs + aside, _TICK)
     if replay.grip is not None:
         reached = arm.tool_pose(joints)[:3, 3] - belongs
         if math.dist(reached, aside) > _LAG:
@@ -262,6 +244,14 @@ def _one_tick(replay: Replay, arm: Arm) -> Replay:
             aside, drift = reached, (reached - replay.aside) / _TICK
     ramp = replay.ramp[1:] if len(replay.ramp) > 1 else replay.ramp
     return replace(replay, tick=tick, joints=joints, along=along, aside=aside, drift=drift, ramp=ramp)
+
+
+def _planned(replay: Replay, along: float, aside: FloatArray) -> FloatArray | None:
+    """Give the planned joints while the hand is on its route and the arm is near them; else None."""
+    planned = replay.route.planned(along)
+    if planned is None or replay.grip is not None or float(np.linalg.norm(aside)) > BACK:
+        return None
+    return planned if np.abs(planned - replay.joints).max() <= _REJOIN else None
 
 
 def _arrive(replay: Replay, pull: Pull) -> Replay:

@@ -8,7 +8,8 @@ import numpy as np
 
 from app.arm import FloatArray
 from app.arm.physics import World
-from app.compliance import DAMPING_RATIO, GRIP, MASS, STRONGEST, Feel, Route
+from app.compliance import DAMPING_RATIO, GRIP, MASS, STRONGEST, Feel
+from app.route import Route
 
 STEPS_PER_SECOND = 480
 JOINT_DAMPING = np.array([2.0, 3.0, 2.0, 0.6, 0.6, 0.2])

@@ -11,7 +11,8 @@ import pytest
 from app.arm import Arm, ArmInputError, FloatArray, Jaco, PlanarArm
 from app.arm.physics import World
 from app.arm.physics_engine import missing
-from app.compliance import FEELS, FIRM, MEDIUM, SOFT, Feel, Pull, Replay, Replayed, Route, advance, begin
+from app.compliance import FEELS, FIRM, MEDIUM, SOFT, Feel, Pull, Replay, Replayed, advance, begin
+from app.route import Route
 from tests.app.impedance import STEPS_PER_SECOND, deviations
 from tests.arm.physical import swing
 
@@ -67,6 +68,28 @@ def test_left_alone_the_hand_goes_the_route_itself(jaco: Jaco, route: Route, fir
     np.testing.assert_allclose(replayed.route, [route.at(time) for time in replayed.times], atol=1e-9)
     assert aside(replayed).max() < 2e-4
     assert replayed.along[-1] == route.times[-1]
+
+
+def test_a_planned_route_is_replayed_as_planned_even_below_the_table(jaco: Jaco) -> None:
+    times, places, _ = swing(300, 3.0)
+    low = places - [0.0, 0.0, 0.3]
+    planned = jaco.follow(low, jaco.home)
+    replayed = whole(jaco, begin(jaco, Route(times, low, planned.joints), 0.0))
+
+    assert planned.errors.max() < 1e-3
+    assert low[:, 2].min() < -0.01
+    assert aside(replayed).max() < 1e-3
+
+
+def test_a_hand_let_go_takes_its_plan_up_again(jaco: Jaco, route: Route, first: FloatArray) -> None:
+    planned = jaco.follow(route.positions, first).joints
+    replay = begin(jaco, replace(route, joints=planned), 0.0)
+    replayed = whole(jaco, replay, pulled((0.0, 0.0, 1.0)))
+
+    assert aside(replayed).max() > 0.8 * MEDIUM.deflection(PULL)
+    assert aside(replayed)[replayed.times > HELD[1] + 1.0].max() < 1e-3
+    assert np.abs(np.diff(replayed.joints, axis=0)).max() <= 0.03 + 1e-9
+    np.testing.assert_allclose(replayed.joints[-1], planned[-1], atol=1e-9)
 
 
 @pytest.mark.parametrize("feel", FEELS, ids=lambda feel: feel.name)
@@ -210,6 +233,8 @@ def test_a_route_or_a_pull_that_is_none_is_refused(route: Route) -> None:
         Route(np.array([0.0, 0.0]), np.zeros((2, 3)))
     with pytest.raises(ArmInputError, match="a route"):
         Route(np.array([0.0, 1.0]), np.zeros((3, 3)))
+    with pytest.raises(ArmInputError, match="a route"):
+        Route(np.array([0.0, 1.0]), np.zeros((2, 3)), np.zeros((3, 6)))
     with pytest.raises(ArmInputError, match="a pull"):
         advance(begin(PlanarArm(), route, 0.0), PlanarArm(), (Pull(0.1, (0.0, float("inf"), 0.0)),), 1.0)
 

@@ -10,7 +10,8 @@ from app.arm import FloatArray, Jaco
 from app.arm.physics import World
 from app.arm.physics_playback import play
 from app.arm.shapes import Box, Cylinder, Ring, Shape, Sphere
-from app.compliance import Pull, Route, advance, begin
+from app.compliance import Pull, advance, begin
+from app.route import Route
 from tests.arm.physical import swing
 
 pytest.importorskip("pybullet", reason="pybullet is not installed (the extra `physics`)")
