@@ -12,6 +12,7 @@ import tyro
 from tyro.extras import SubcommandApp
 
 from app import commands
+from app.check import check
 from gc_core import GcError
 
 DESCRIPTION: Final = "Teach a robot arm a motion in the browser; `gc-teach` alone serves the app."
@@ -55,6 +56,7 @@ def serve(
 
 cli.command(commands.encode)
 cli.command(commands.reproduce)
+cli.command(check)
 
 
 def main(args: Sequence[str] | None = None) -> None:

@@ -76,9 +76,9 @@ def find_path(
     coarse = positions[_spread(len(positions), _N_COARSE)]
     best = _best(solver, coarse, start, home, "down")
     path = solver.walk(positions, best.joints)
-    room = _room(solver, path)
-    if room >= SAFE_DISTANCE:
+    if solver.room(path.joints[_spread(len(positions), _N_CHECKED)]) >= SAFE_DISTANCE:
         return path
+    allowed, cost = max(_REACHED, path.errors.max()), _cost(solver, path)
     best_free = _best(solver, coarse, start, home, "free")
     others: tuple[tuple[FloatArray, Wrist, bool], ...] = (
         (best.joints, "down", True),
@@ -86,13 +86,19 @@ def find_path(
         (best_free.joints, "free", True),
     )
     for begin, wrist, careful in others:
-        other = solver.walk(positions, begin, careful=careful, wrist=wrist)
-        other_room = _room(solver, other)
-        if other_room > room and other.errors.max() <= max(_REACHED, path.errors.max()):
-            path, room = other, other_room
-        if room >= _GOOD_ROOM:
+        if cost < _SMOOTH:
             break
+        other = solver.walk(positions, begin, careful=careful, wrist=wrist)
+        other_cost = _cost(solver, other)
+        if other.errors.max() <= allowed and other_cost < cost:
+            path, cost = other, other_cost
     return path
+
+
+def _cost(solver: Solver, path: JointPath) -> float:
+    """Weigh touching against jumping: 1 mm too near is as bad as a step of 1 rad."""
+    room = solver.room(path.joints[_spread(len(path.joints), _N_CHECKED)])
+    return 1000.0 * max(0.0, _GOOD_ROOM - room) + float(np.abs(np.diff(path.joints, axis=0)).max(initial=0.0))
 
 
 def _best(
@@ -108,10 +114,6 @@ def _best(
             return best
     assert best is not None  # home is always among them
     return best
-
-
-def _room(solver: Solver, path: JointPath) -> float:
-    return solver.room(path.joints[_spread(len(path.joints), _N_CHECKED)])
 
 
 def _try(solver: Solver, coarse: FloatArray, seed: FloatArray, wrist: Wrist) -> _Candidate:
