@@ -67,7 +67,8 @@ def how(model: Model) -> str:
     if len(anchors) == 2 and all(anchor.kind != "object" for anchor in anchors):
         turned = "turned, then " if "turn" in registration.case else ""
         return f"The tube is {turned}stretched between {between}."
-    return f"The tube is bent smoothly by {between}."
+    bent = "bent smoothly" if len(registration.weights) else "stretched and slanted"
+    return f"The tube is {bent} by {between}."
 
 
 def folds(model: Model) -> str | None:
