@@ -186,8 +186,9 @@ class Jaco:
 
     def reposition(self, joints: npt.ArrayLike, target: npt.ArrayLike) -> FloatArray | None:
         """Find a way to another posture, straight, folded up over the base, or by way of home."""
-        wanted = SHELL.project(position_of(target))
-        solver = self._use()
+        wanted, solver = position_of(target), self._use()
+        if np.linalg.norm(SHELL.project(wanted) - wanted) > HERE:
+            return None
         return way_to(solver, self._joints(joints), wanted, self._home, solver.endless)
 
     def clearance(self, joints: npt.ArrayLike) -> Clearance:

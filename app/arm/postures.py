@@ -105,11 +105,15 @@ def way_to(
 
     ends = [near(posture, joints) for posture, touched in reaching(solver, target, home) if not touched]
     ends.sort(key=lambda end: float(np.abs(end - joints).max()))
+    under_the_table: FloatArray | None = None
     for end in ends[:_MOST_WAYS]:
         for way in _ways(joints, end, home, near):
             if _is_clear(solver, way):
-                return way
-    return None
+                if _lowest(solver, way) >= 0.0:
+                    return way
+                under_the_table = way if under_the_table is None else under_the_table
+    # A hand is dragged without regard to where the elbow is, so it may have to come back from down there.
+    return under_the_table
 
 
 def _ways(
@@ -127,13 +131,18 @@ def _ways(
 
 def _is_clear(solver: Solver, way: FloatArray) -> bool:
     """Say whether nothing touches on the straight lines of a way (W, 6); where it begins anything may."""
-    n_steps = [int(np.ceil(np.abs(b - a).max() / _CHECKED_EVERY)) + 1 for a, b in pairwise(way)]
-    lines = [
-        a + np.linspace(0.0, 1.0, n)[:, None] * (b - a)
-        for (a, b), n in zip(pairwise(way), n_steps, strict=True)
-    ]
     at_first = min(_CLEAR, solver.room(way[:1]))
-    for joints in np.concatenate(lines):
-        if solver.room(joints[None]) < at_first - 1e-6 or solver.lowest(joints) < 0.0:
-            return False
-    return True
+    return all(solver.room(joints[None]) >= at_first - 1e-6 for joints in _lines(way))
+
+
+def _lowest(solver: Solver, way: FloatArray) -> float:
+    return min(solver.lowest(joints) for joints in _lines(way))
+
+
+def _lines(way: FloatArray) -> FloatArray:
+    """Give joints (K, 6) along the straight lines of a way (W, 6)."""
+    parts: list[FloatArray] = []
+    for begin, end in pairwise(way):
+        n_steps = int(np.ceil(np.abs(end - begin).max() / _CHECKED_EVERY)) + 1
+        parts.append(begin + np.linspace(0.0, 1.0, n_steps)[:, None] * (end - begin))
+    return np.concatenate(parts)

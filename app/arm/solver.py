@@ -26,7 +26,7 @@ from app.arm.shapes import rotation_of
 DRAG_SPEED = 3.0
 """No joint turns faster than this while the hand is dragged [rad/s]."""
 _SOLVES_PER_TICK = 4
-_AT_REST = 1e-6
+_AT_REST = 1e-5
 """When a solve moves no joint by more than this, the others of its tick would not either [rad]."""
 _TREMBLE, _SLOW = 0.05, 0.05
 """Joints faster than this [rad/s] while the tool is slower than this [m/s] may be a tremble."""

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
-from app.arm import FloatArray, Jaco
+from app.arm import Conditions, FloatArray, Jaco
+from app.arm.shapes import Box, Ring
+from app.arm.timing import retime
 from app.servo import advance, begin
 
 
@@ -55,3 +57,38 @@ def test_one_more_arm(benchmark: BenchmarkFixture) -> None:
         Jaco().close()
 
     benchmark(open_and_close)
+
+
+@pytest.mark.benchmark(group="arm")
+@pytest.mark.parametrize("around", ["nothing", "box", "ring"])
+def test_a_drag_tick(benchmark: BenchmarkFixture, jaco: Jaco, around: str) -> None:
+    """With self-collision avoidance the issue allows 1 ms in the median."""
+    shapes = {
+        "nothing": (),
+        "box": (Box("box", (0.0, -0.5, 0.1), (0.12, 0.12, 0.2)),),
+        "ring": (Ring("ring", (0.2, -0.4, 0.3), 0.1, 0.015),),
+    }
+    arm = jaco.under(Conditions(shapes[around]))
+    begin_at = jaco.tool_pose(jaco.home)[:3, 3]
+    joints = [jaco.home]
+    for tick in range(200):
+        joints.append(arm.step(joints[-1], begin_at + [0.003 * tick, 0.0, 0.1], 0.01))
+    ticks = iter(range(10**9))
+
+    def step() -> None:
+        tick = next(ticks) % 200
+        arm.step(joints[tick], begin_at + [0.003 * tick, 0.0, 0.1], 0.01)
+
+    benchmark(step)
+
+    if benchmark.stats and around == "nothing":
+        assert benchmark.stats.stats.median < 1e-3
+
+
+@pytest.mark.benchmark(group="arm")
+def test_timing_a_path(benchmark: BenchmarkFixture, jaco: Jaco) -> None:
+    joints = jaco.follow(loop(jaco, 500)).joints
+
+    timed = benchmark(retime, joints, jaco.velocity_limits, jaco.acceleration_limits)
+
+    assert timed.duration > 1.0
