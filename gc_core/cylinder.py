@@ -81,16 +81,14 @@ class GeneralizedCylinder:
 
     @cached_property
     def volume(self) -> float:
-        """Volume inside `surface()` with flat ends; what is covered twice counts twice [m^3]."""
-        # Faces seen from a point on the directrix add up to the volume (divergence theorem).
-        rings = self._surface - self.directrix[0]
-        turned = np.roll(rings, -1, axis=1)
-        sides = _six_volumes(rings[:-1], turned[:-1], turned[1:]) + _six_volumes(
-            rings[:-1], turned[1:], rings[1:]
-        )
-        first, last = self.directrix[0] - self.directrix[0], self.directrix[-1] - self.directrix[0]
-        caps = _six_volumes(last, rings[-1], turned[-1]) - _six_volumes(first, rings[0], turned[0])
-        return (sides + caps) / 6.0
+        """Volume between the sections [m^3]; what is covered twice, or swept backwards, counts as often."""
+        # Faces of each slab seen from its first centre add up to its volume (divergence theorem).
+        centre = self.directrix[:-1, None]
+        here, there = self._surface[:-1] - centre, self._surface[1:] - centre
+        here_on, there_on = np.roll(here, -1, axis=1), np.roll(there, -1, axis=1)
+        ahead = self.directrix[1:, None] - centre
+        sides = _six_volumes(here, here_on, there_on) + _six_volumes(here, there_on, there)
+        return float(np.abs(sides + _six_volumes(ahead, there, there_on)).sum()) / 6.0
 
     @cached_property
     def sweep(self) -> Sweep:
@@ -152,6 +150,6 @@ class GeneralizedCylinder:
         return inside(self.sweep, finite(points, "points", (None, 3)))
 
 
-def _six_volumes(a: FloatArray, b: FloatArray, c: FloatArray) -> float:
-    """Sum of six times the signed volumes of the tetrahedra (0, a, b, c) of broadcast corners (..., 3)."""
-    return float((a * np.cross(b, c)).sum())
+def _six_volumes(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
+    """Six times the signed volumes (N,) of all tetrahedra (0, a, b, c) of broadcast corners (N, M, 3)."""
+    return np.asarray((a * np.cross(b, c)).sum(axis=(1, 2)), dtype=np.float64)

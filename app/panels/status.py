@@ -34,8 +34,8 @@ def status(state: State) -> str:
     else:
         # The lesson shows what the skill is about; here would be the same sentence again.
         message = "" if state.message == state.document.about else state.message
-        if message and not state.warning and state.dragging is None and words.drawn_flat(state.model):
-            message = f"{message} {words.FLAT}"
+        if message and not state.warning and state.dragging is None:
+            message = f"{message} {words.advice(state.model)}".rstrip()
         color = AMBER if state.warning else "inherit"
         line = words.note(words.escape(message or words.taught(state.model)), strong=True, color=color)
     return f'<div role="status" style="min-height:3rem">{line}</div>'

@@ -11,7 +11,17 @@ from app.model import Model
 
 THINNEST: Final = 0.03
 """Demonstrations thinner than this, as a part of their breadth, were drawn in one plane."""
-FLAT: Final = "So the tube is flat: turn the view, or hold Shift, and show the motion once more."
+FLAT: Final = (
+    "The tube is flat, as all were drawn in one plane: turn the view or hold Shift, and show it again."
+)
+
+
+MOST_CUT: Final = 0.02
+"""Part of the slices that may cut a neighbour without a word above the tabs [-]."""
+CRUMPLED: Final = (
+    "Where the motion turns back, the tube is wider than the turn and its slices cut each other: "
+    "show the turn wider, or more alike."
+)
 
 
 def escape(text: str) -> str:
@@ -67,6 +77,11 @@ def ratio(eta: float) -> str:
     return f"outside the tube, at {percent:.0f} % of the way to its edge"
 
 
+def crumpled(model: Model) -> bool:
+    """Whether more slices than one in fifty cut their neighbours: there the tube is not to be trusted."""
+    return model.cylinder is not None and bool(model.cylinder.diagnostics.crossing.mean() > MOST_CUT)
+
+
 def drawn_flat(model: Model) -> bool:
     """Whether several demonstrations lie in one plane, as a mouse draws them unless the view is turned.
 
@@ -80,6 +95,13 @@ def drawn_flat(model: Model) -> bool:
     return bool(max(variances[0], 0.0) < THINNEST**2 * variances[1])
 
 
+def advice(model: Model) -> str:
+    """What is to be said of the tube, whatever else is said; empty where it is sound."""
+    if len(model.demonstrations) > 1 and crumpled(model):
+        return CRUMPLED
+    return FLAT if drawn_flat(model) else ""
+
+
 def taught(model: Model) -> str:
     """Say what was learned, or why nothing was."""
     if model.problem is not None:
@@ -91,7 +113,6 @@ def taught(model: Model) -> str:
         return "All demonstrations are muted. Learn from at least one of them."
     if used == 1:
         return "Shown once. Show it again a little differently, and the tube learns what may vary."
-    if drawn_flat(model):
-        return f"All {used} demonstrations were drawn in one plane. {FLAT}"
     from_all = "" if used == shown else f" of {shown}"
-    return f"Learned from {used}{from_all} demonstrations. Wide: free. Narrow: must be exact."
+    learned = f"Learned from {used}{from_all} demonstrations."
+    return f"{learned} {advice(model) or 'Wide: free. Narrow: must be exact.'}"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -207,3 +209,18 @@ def test_a_point_does_not_jump_when_a_plane_passes_the_beginning_of_its_demonstr
     assert jumps.max() <= 1.01 * np.diff(cylinder.arc_length).max()
     assert cylinder.diagnostics.missed[:, 1].any()
     assert not cylinder.diagnostics.missed[-1].any()
+
+
+@every_section
+def test_the_volume_of_a_motion_that_turns_back_on_itself_is_positive(section: str) -> None:
+    def there_and_back(top: tuple[float, float, float], end: tuple[float, float, float]) -> Demonstration:
+        corners = np.array([(0.01, -0.5, 0.25), top, end])
+        path = np.concatenate([np.linspace(a, b, 80)[:-1] for a, b in pairwise(corners)] + [corners[-1:]])
+        return Demonstration(np.linspace(0.0, 8.0, len(path)), path)
+
+    shown = [
+        there_and_back((-0.02, -0.52, 0.43), (-0.03, -0.55, 0.08)),
+        there_and_back((-0.08, -0.56, 0.46), (-0.05, -0.55, 0.08)),
+    ]
+
+    assert encode(shown, section=section).volume > 1e-4
