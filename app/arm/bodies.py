@@ -17,6 +17,8 @@ from app.arm.shapes import Primitive, Shape, pose_of, primitives
 # As with placo: they live in its prefix.
 _coal: Any = import_module("coal")
 _pinocchio: Any = import_module("pinocchio")
+_FINGERS = 0.04
+"""Open fingers stand round what is thinner than twice this, so that the tool may be inside of it [m]."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,7 @@ class Bodies:
         self._watched = np.zeros((len(self._radii), len(parts)), dtype=np.bool_)
 
     def around(self, position: FloatArray) -> str:
-        """Name the obstacle that a position (3,) lies in; empty when it lies in none."""
+        """Name the obstacle that a position (3,) lies too deep in for open fingers; empty when in none."""
         for shape in self._obstacles:
             if any(_holds(pose_of(shape) @ part.pose, part, position) for part in primitives(shape)):
                 return shape.name
@@ -123,17 +125,13 @@ def _radius(part: Primitive) -> float:
 
 
 def _holds(pose: FloatArray, part: Primitive, position: FloatArray) -> bool:
-    """Say whether a body holds a position (3,)."""
-    x, y, z = (pose[:3, :3].T @ (position - pose[:3, 3])).tolist()
+    """Say whether a body holds a position (3,) deeper than `_FINGERS`."""
+    x, y, z = (np.abs(pose[:3, :3].T @ (position - pose[:3, 3])) + _FINGERS).tolist()
     if part.kind == "box":
-        return all(2.0 * abs(value) < size for value, size in zip((x, y, z), part.size, strict=True))
-    if part.kind == "sphere":
-        return math.hypot(x, y, z) < part.size[0]
-    radius, length = part.size
-    beyond = max(abs(z) - 0.5 * length, 0.0)
+        return all(2.0 * value < size for value, size in zip((x, y, z), part.size, strict=True))
     if part.kind == "cylinder":
-        return beyond == 0.0 and math.hypot(x, y) < radius
-    return math.hypot(x, y, beyond) < radius
+        return math.hypot(x, y) < part.size[0] and 2.0 * z < part.size[1]
+    return part.kind == "sphere" and math.hypot(x, y, z) < part.size[0]
 
 
 def _geometry(part: Primitive) -> Any:

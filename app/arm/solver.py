@@ -170,7 +170,7 @@ class Solver:
         return float(min(found.itself.min(), found.obstacles.min()))
 
     def inside(self, position: FloatArray) -> str:
-        """Name the obstacle that a position (3,) lies in; empty when it lies in none."""
+        """Name the obstacle that a position (3,) lies deep in; empty when in none."""
         return self._bodies.around(position)
 
     def lowest(self, joints: FloatArray) -> float:

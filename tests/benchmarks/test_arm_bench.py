@@ -72,12 +72,12 @@ def test_a_drag_tick(benchmark: BenchmarkFixture, jaco: Jaco, around: str) -> No
     begin_at = jaco.tool_pose(jaco.home)[:3, 3]
     joints = [jaco.home]
     for tick in range(200):
-        joints.append(arm.step(joints[-1], begin_at + [0.003 * tick, 0.0, 0.1], 0.01))
+        joints.append(arm.step(joints[-1], begin_at + np.array([0.003 * tick, 0.0, 0.1]), 0.01))
     ticks = iter(range(10**9))
 
     def step() -> None:
         tick = next(ticks) % 200
-        arm.step(joints[tick], begin_at + [0.003 * tick, 0.0, 0.1], 0.01)
+        arm.step(joints[tick], begin_at + np.array([0.003 * tick, 0.0, 0.1]), 0.01)
 
     benchmark(step)
 
