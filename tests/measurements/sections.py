@@ -284,8 +284,8 @@ def report(measured: Sequence[Measured], count: int) -> str:
         if broken(m)
     ]
     parts += faults or [
-        "Nothing: every row keeps what is required, which allows 4 of 200 stations to cut a neighbour when they "
-        "are named\n(only *pouring* has such), and missed points that are reported."
+        "Nothing: every row keeps what is required, which allows 4 of 200 stations to cut a neighbour when "
+        "they are named\n(only *pouring* has such), and missed points that are reported."
     ]
     return "\n".join(parts) + "\n"
 
