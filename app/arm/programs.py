@@ -19,7 +19,7 @@ SAFE_DISTANCE = 0.01
 # Not an import statement: placo lives in a prefix of its own, and its stubs name types that do not exist.
 placo: Any = import_module("placo")
 _DAMPING, _DAMPING_PER_METRE = 1e-6, 0.1
-_TOOL_DOWN, _POSTURE, _AVOID = 1e-5, 1e-7, 1e3
+_TOOL_DOWN, _POSTURE, _AVOID = 1e-5, 1e-6, 1e3
 _LOCKED = 0.1
 """A turn of the locked tool by 1 rad costs as much as a miss of 0.3 m."""
 TRIGGER = 0.06
