@@ -8,7 +8,7 @@ from scipy.spatial import ConvexHull
 
 from gc_core.arrays import FloatArray
 
-SAMPLES = 72
+SAMPLES = 48
 """Of one spline."""
 
 
