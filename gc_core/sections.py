@@ -117,7 +117,8 @@ def closed_spline(points: FloatArray, count: int, half_width: float) -> FloatArr
     """
     corners, n_corners = _corners(points)
     lacking = _lacking_width(points, half_width)
-    round_ = n_corners > 2
+    # Corners on one line, to within rounding, have no curve round them; there the least thickness rules.
+    round_ = (n_corners > 2) & (lacking < (1.0 - 1e-9) * half_width)
     loops = np.zeros((2, len(points), CURVE_SAMPLES))
     for n in np.unique(n_corners[round_]):
         rows = np.flatnonzero(n_corners == n)

@@ -10,7 +10,7 @@ import pytest
 from gc_core import Demonstration, encode, generalize, register, reproduce
 from gc_core.alignment import ALIGNMENTS
 from gc_core.arrays import FloatArray
-from gc_core.sections import SECTIONS
+from gc_core.sections import SECTIONS, section_radii
 from tests.core.shapes import bundle, moved, rotation
 from tests.core.test_encode import ratios_to_polygons
 
@@ -107,3 +107,11 @@ def test_where_all_demonstrations_end_in_one_place_rounding_does_not_choose_the_
     tube, turned = encode(meeting()), encode(moved(meeting(), linear, shift))
 
     np.testing.assert_allclose(turned.surface(), tube.surface() @ linear.T + shift, atol=1e-9)
+
+
+@pytest.mark.parametrize("section", sorted(SECTIONS))
+@pytest.mark.parametrize("size", [1e-30, 1e-170, 1e-310])
+def test_points_too_near_to_tell_apart_have_a_section_of_the_least_width(section: str, size: float) -> None:
+    points = size * np.array([[[1.0, 0.0], [0.0, 1.0], [-1.0, -1.0]]])
+
+    np.testing.assert_allclose(section_radii(points, section, 64, 0.001), 0.001, rtol=0.01)
