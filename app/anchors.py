@@ -3,6 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial.transform import (  # pyright: ignore[reportMissingTypeStubs] - SciPy has none
+    Rotation,
+)
 
 from app.document import FloatArray, LandmarkKind
 from gc_core import Landmark
@@ -47,23 +50,11 @@ def same_anchors(one: tuple[Anchor, ...], other: tuple[Anchor, ...]) -> bool:
 
 def quaternion(turn: FloatArray) -> FloatArray:
     """Turn roll, pitch, yaw (3,) [rad] about the fixed x, then y, then z axis into a quaternion (4,) wxyz."""
-    (cr, cp, cy), (sr, sp, sy) = np.cos(0.5 * turn), np.sin(0.5 * turn)
-    return np.array(
-        [
-            cr * cp * cy + sr * sp * sy,
-            sr * cp * cy - cr * sp * sy,
-            cr * sp * cy + sr * cp * sy,
-            cr * cp * sy - sr * sp * cy,
-        ]
-    )
+    return np.asarray(Rotation.from_euler("xyz", turn).as_quat(scalar_first=True), dtype=np.float64)
 
 
 def matrix(turn: FloatArray | None) -> FloatArray:
     """(3, 3) matrix of roll, pitch, yaw (3,) [rad]: turns about the fixed x, then y, then z axis."""
     if turn is None:
         return np.eye(3)
-    (cr, cp, cy), (sr, sp, sy) = np.cos(turn), np.sin(turn)
-    about_x = np.array([[1.0, 0.0, 0.0], [0.0, cr, -sr], [0.0, sr, cr]])
-    about_y = np.array([[cp, 0.0, sp], [0.0, 1.0, 0.0], [-sp, 0.0, cp]])
-    about_z = np.array([[cy, -sy, 0.0], [sy, cy, 0.0], [0.0, 0.0, 1.0]])
-    return about_z @ about_y @ about_x
+    return np.asarray(Rotation.from_euler("xyz", turn).as_matrix(), dtype=np.float64)

@@ -72,6 +72,11 @@ def interpolated(at: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
     return np.asarray(np.interp(at, x, y), dtype=np.float64)
 
 
+def fading(part: FloatArray) -> FloatArray:
+    """Fall from 1 at part 0 to 0 at part 1, with level ends."""
+    return (1.0 - part) ** 2 * (1.0 + 2.0 * part)
+
+
 def remembered(
     function: Callable[Concatenate[Key, Options], Result],
 ) -> Callable[Concatenate[Key, Options], Result]:

@@ -8,7 +8,7 @@ from itertools import combinations
 
 import numpy as np
 
-from gc_core.arrays import BoolArray, FloatArray, finite, read_only_fields
+from gc_core.arrays import BoolArray, FloatArray, fading, finite, read_only_fields
 from gc_core.errors import ShapeError, TooFewSamplesError
 from gc_core.frames import arc_length
 from gc_core.reproduction import Reproduction
@@ -197,8 +197,7 @@ def _faded(run: FloatArray, planes: _Planes) -> FloatArray:
 
 
 def _fade(away: FloatArray) -> FloatArray:
-    part = np.clip(away / FADE_LENGTH, 0.0, 1.0)
-    return (1.0 - part) ** 2 * (1.0 + 2.0 * part)
+    return fading(np.clip(away / FADE_LENGTH, 0.0, 1.0))
 
 
 def nearest_allowed(places: FloatArray, points: FloatArray, normals: FloatArray) -> FloatArray:

@@ -24,7 +24,6 @@ from gc_core.frames import angles_between, tangents
 from gc_core.radius import vertex_angles
 from gc_core.sections import SECTIONS
 from gc_core.slicing import Settings, Slices, slices_of
-from gc_core.surface import crossing_stations
 
 FEWEST_STATIONS = 8
 """Below this a curve has no usable tangents."""
@@ -166,7 +165,7 @@ def _assemble(
             centre_outside=_centre_outside(local),
             minimum_half_width=settings.half_width,
             assumed_width=len(shown) == 1,
-            crossing=crossing_stations(slices.surface, normals),
+            crossing=slices.crossing,
             tilt=angles_between(normals, tangents(alignment.directrix)),
             folded=np.zeros(len(normals), dtype=bool),
         ),

@@ -57,7 +57,8 @@ def generalize(
     if repair and crossing.sum() > cylinder.diagnostics.crossing.sum():
         normals = tilted_normals(image.directrix, normals, surface, image.surface)
         frames, radii, points = image.cut(normals)
-        crossing = crossing_stations(image.surface(normals), normals)
+        surface = section_surface(image.directrix, frames, cylinder.angles, radii)
+        crossing = crossing_stations(surface, normals)
     orientations = cylinder.orientations
     return replace(
         cylinder,

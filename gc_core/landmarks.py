@@ -6,6 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial.transform import (  # pyright: ignore[reportMissingTypeStubs] - SciPy has none
+    Rotation,
+)
 
 from gc_core.arrays import FloatArray, finite, read_only
 from gc_core.errors import ShapeError, ZeroQuaternionError
@@ -37,28 +40,6 @@ class Landmark:
             if length < 1e-9:
                 raise ZeroQuaternionError(what, 0)
             object.__setattr__(self, "orientation", read_only(quaternion / length))
-
-
-def quaternion_matrices(quaternions: FloatArray) -> FloatArray:
-    """Turn quaternions into rotation matrices.
-
-    Parameters
-    ----------
-    quaternions : (..., 4) array
-        Unit quaternions w, x, y, z [-].
-
-    Returns
-    -------
-    (..., 3, 3) array
-        Columns are the turned axes [-].
-    """
-    w, x, y, z = np.moveaxis(quaternions, -1, 0)
-    rows = (
-        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
-        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
-        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
-    )
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 
 
 def landmarks(given: Sequence[Landmark] | FloatArray) -> list[Landmark]:
@@ -96,7 +77,11 @@ def rotation(landmark: Landmark) -> FloatArray:
     (3, 3) array
         Its axes in the base frame as columns; those of the base frame when it has no orientation [-].
     """
-    return np.eye(3) if landmark.orientation is None else quaternion_matrices(landmark.orientation)
+    if landmark.orientation is None:
+        return np.eye(3)
+    return np.asarray(
+        Rotation.from_quat(landmark.orientation, scalar_first=True).as_matrix(), dtype=np.float64
+    )
 
 
 def acting_points(source: Landmark, target: Landmark) -> tuple[FloatArray, FloatArray]:

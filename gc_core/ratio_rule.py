@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from gc_core.arrays import FloatArray, IntArray, read_only
+from gc_core.arrays import FloatArray, IntArray, fading, read_only
 from gc_core.cylinder import GeneralizedCylinder
 from gc_core.joining import Joins
 from gc_core.location import CACHED, Sweep, between, edge_distance, edge_weights, ratios_in_plane
@@ -203,8 +203,3 @@ def _ratios_of(
     away = coordinates - stretch.centres[:, None]
     x, y = (np.einsum("csk,ck->sk", away, stretch.axes[:, axis])[rows, columns] for axis in range(2))
     return ratios_in_plane(sweep, int(stretch.stations[0]) + columns, x, y)
-
-
-def fading(part: FloatArray) -> FloatArray:
-    """Fall from 1 at part 0 to 0 at part 1, with level ends."""
-    return (1.0 - part) ** 2 * (1.0 + 2.0 * part)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -11,9 +12,9 @@ from gc_core.arrays import BoolArray, FloatArray
 from gc_core.crossings import Lines, effective_points, lines_of
 from gc_core.demonstration import Trimmed
 from gc_core.frames import arc_length, rotation_minimizing_frames, tangents
-from gc_core.radius import vertex_angles
+from gc_core.radius import slope_limited, vertex_angles
 from gc_core.sections import section_radii
-from gc_core.surface import crossing_stations, gently_changing, section_surface
+from gc_core.surface import boundary_advance, crossing_stations, section_surface
 from gc_core.tilting import tilted_normals
 
 REPAIR_ANGLES = 32
@@ -47,6 +48,11 @@ class Slices:
     surface: FloatArray
     """(N, M, 3) [m]."""
 
+    @cached_property
+    def crossing(self) -> BoolArray:
+        """(N,) stations whose section cuts a neighbour."""
+        return crossing_stations(self.surface, self.frames[:, :, 0])
+
 
 def slices_of(trimmed: tuple[Trimmed, ...], alignment: Alignment, settings: Settings) -> Slices:
     """Cut demonstrations perpendicular to the directrix, or tilted where sections would cross.
@@ -67,7 +73,7 @@ def slices_of(trimmed: tuple[Trimmed, ...], alignment: Alignment, settings: Sett
     first = _first_normal(alignment, along[0])
     lines = lines_of(trimmed, alignment)
     slices = _cut(lines, along, first, settings)
-    if not settings.repair or not crossing_stations(slices.surface, along).any():
+    if not settings.repair or not slices.crossing.any():
         return slices
     coarse = replace(settings, angles=min(settings.angles, REPAIR_ANGLES))
     normals = tilted_normals(
@@ -86,7 +92,7 @@ def _cut(lines: Lines, normals: FloatArray, first: FloatArray, settings: Setting
     points, missed = effective_points(lines, normals)
     local = (points - directrix[:, None]) @ frames[:, :, 1:]
     radii = section_radii(local, settings.section, settings.angles, settings.half_width)
-    radii = gently_changing(directrix, frames, radii)
+    radii = slope_limited(radii, boundary_advance(directrix, frames, radii))
     surface = section_surface(directrix, frames, vertex_angles(settings.angles), radii)
     return Slices(frames, points, missed, radii, surface)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gc_core.arrays import BoolArray, FloatArray
-from gc_core.radius import slope_limited, vertex_angles
+from gc_core.radius import vertex_angles
 
 SHORTEST_ADVANCE = 0.2
 """On the inside of a bend the boundary counts as advancing at least this part of the directrix's step [-]."""
@@ -38,27 +38,6 @@ def crossing_stations(surface: FloatArray, normals: FloatArray) -> BoolArray:
     back |= np.einsum("imk,ik->im", forward, normals[1:]) <= 0.0
     pair = back.any(axis=1)
     return np.concatenate((pair, [False])) | np.concatenate(([False], pair))
-
-
-def gently_changing(directrix: FloatArray, frames: FloatArray, radii: FloatArray) -> FloatArray:
-    """Widen sections until the boundary changes slowly along the curve, also on the inside of bends.
-
-    Parameters
-    ----------
-    directrix : (N, 3) array
-        Centres [m].
-    frames : (N, 3, 3) array
-        Columns: section normal, N, B.
-    radii : (N, M) array
-        [m].
-
-    Returns
-    -------
-    (N, M) array
-        Nowhere less than `radii`; neighbours differ by at most `GREATEST_SLOPE` of the advance, which is that
-        of the boundary as given: what was widened on the inside of a bend advances a little less [m].
-    """
-    return slope_limited(radii, boundary_advance(directrix, frames, radii))
 
 
 def boundary_advance(directrix: FloatArray, frames: FloatArray, radii: FloatArray) -> FloatArray:

@@ -77,10 +77,11 @@ def tilted_normals(
     fewest = int(crossing_stations(surface, normals).sum())
     weights = np.zeros(len(directrix) - 1)
     for _ in range(ROUNDS):
-        reach = (surface - directrix[:, None])[:, :: max(1, surface.shape[1] // CORNERS)]
-        if not fewest or _turn_ratios(directrix, normals, surface - directrix[:, None]).max() < CLEAR:
+        reach = surface - directrix[:, None]
+        if not fewest or _turn_ratios(directrix, normals, reach).max() < CLEAR:
             break
-        smoothed, weights = _smoothed(directrix, wanted, normals, reach, weights)
+        some = reach[:, :: max(1, reach.shape[1] // CORNERS)]
+        smoothed, weights = _smoothed(directrix, wanted, normals, some, weights)
         normals = _near(wanted, _unit(normals + DAMPING * (smoothed - normals)))
         surface = cut(normals)
         crossing = int(crossing_stations(surface, normals).sum())

@@ -8,10 +8,13 @@ them over as these. Both the kinematic distance and the physics are made from
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 from typing import Literal
 
 import numpy as np
+from scipy.spatial.transform import (  # pyright: ignore[reportMissingTypeStubs] - SciPy has none
+    Rotation,
+)
 
 from app.arm.errors import ArmInputError
 from app.arm.protocol import FloatArray
@@ -26,79 +29,60 @@ RING_PARTS = 16
 
 
 @dataclass(frozen=True)
-class Box:
+class _Thing:
+    """What all shapes have."""
+
+    name: str
+    position: Triple
+    """Centre [m]."""
+    wxyz: Quadruple = field(default=UPRIGHT, kw_only=True)
+    """Orientation; any length but zero."""
+    mass: float = field(default=0.0, kw_only=True)
+    """0 stands fixed, an obstacle; anything else can be pushed and carried [kg]."""
+
+    def __post_init__(self) -> None:
+        common = {one.name for one in fields(_Thing)}
+        sizes = [getattr(self, one.name) for one in fields(self) if one.name not in common]
+        _check(self.name, self.position, self.wxyz, np.hstack(sizes).tolist(), self.mass)
+
+
+@dataclass(frozen=True)
+class Box(_Thing):
     """A cuboid about its centre."""
 
-    name: str
-    position: Triple
-    """Centre [m]."""
     size: Triple
     """Full lengths of its edges along its own x, y and z [m]."""
-    wxyz: Quadruple = UPRIGHT
-    """Orientation; any length but zero."""
-    mass: float = 0.0
-    """0 stands fixed, an obstacle; anything else can be pushed and carried [kg]."""
-
-    def __post_init__(self) -> None:
-        _check(self.name, self.position, self.wxyz, self.size, self.mass)
 
 
 @dataclass(frozen=True)
-class Sphere:
+class Sphere(_Thing):
     """A ball about its centre."""
 
-    name: str
-    position: Triple
-    """Centre [m]."""
     radius: float
     """[m]."""
-    wxyz: Quadruple = UPRIGHT
-    """Orientation; any length but zero."""
-    mass: float = 0.0
-    """0 stands fixed, an obstacle; anything else can be pushed and carried [kg]."""
-
-    def __post_init__(self) -> None:
-        _check(self.name, self.position, self.wxyz, (self.radius,), self.mass)
 
 
 @dataclass(frozen=True)
-class Cylinder:
+class Cylinder(_Thing):
     """A solid cylinder about its centre, its axis along its own z."""
 
-    name: str
-    position: Triple
-    """Centre [m]."""
     radius: float
     """[m]."""
     length: float
     """Along its axis [m]."""
-    wxyz: Quadruple = UPRIGHT
-    """Orientation; any length but zero."""
-    mass: float = 0.0
-    """0 stands fixed, an obstacle; anything else can be pushed and carried [kg]."""
-
-    def __post_init__(self) -> None:
-        _check(self.name, self.position, self.wxyz, (self.radius, self.length), self.mass)
 
 
 @dataclass(frozen=True)
-class Ring:
+class Ring(_Thing):
     """A torus about its centre; its opening looks along its own z."""
 
-    name: str
-    position: Triple
-    """Centre [m]."""
     radius: float
     """From the centre to the middle of the wall [m]."""
     wall: float
     """Radius of the wall's round cross-section, less than ``radius`` [m]."""
-    wxyz: Quadruple = UPRIGHT
-    """Orientation; any length but zero."""
-    mass: float = 0.0
-    """0 stands fixed, an obstacle; anything else can be pushed and carried [kg]."""
 
     def __post_init__(self) -> None:
-        _check(self.name, self.position, self.wxyz, (self.radius, self.wall), self.mass)
+        super().__post_init__()
         if self.wall >= self.radius:
             raise ArmInputError(
                 f"the wall of {self.name!r}", f"less than its radius of {self.radius} m", self.wall
@@ -129,14 +113,7 @@ def pose_of(shape: Shape) -> FloatArray:
 
 def rotation_of(wxyz: Quadruple) -> FloatArray:
     """Give the (3, 3) rotation of an orientation of any length but zero."""
-    w, x, y, z = np.asarray(wxyz) / np.linalg.norm(wxyz)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    return np.asarray(Rotation.from_quat(wxyz, scalar_first=True).as_matrix(), dtype=np.float64)
 
 
 def primitives(shape: Shape) -> tuple[Primitive, ...]:
@@ -204,7 +181,7 @@ def _ring_part(ring: Ring, number: int) -> Primitive:
     return Primitive("capsule", (ring.wall, 2.0 * corner * math.sin(half)), pose)
 
 
-def _check(name: str, position: Triple, wxyz: Quadruple, sizes: tuple[float, ...], mass: float) -> None:
+def _check(name: str, position: Triple, wxyz: Quadruple, sizes: list[float], mass: float) -> None:
     if not (len(position) == 3 and np.isfinite(position).all()):
         raise ArmInputError(f"the position of {name!r}", "three finite numbers", position)
     if not (len(wxyz) == 4 and np.isfinite(wxyz).all() and np.linalg.norm(wxyz) > 0.0):

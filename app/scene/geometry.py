@@ -10,6 +10,9 @@ from typing import Final, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
+from scipy.spatial.transform import (  # pyright: ignore[reportMissingTypeStubs] - SciPy has none
+    Rotation,
+)
 
 from app.document import FloatArray
 from app.scene.polyline import along, arc_length
@@ -179,23 +182,8 @@ def across(directions: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
 
 
 def quaternions(rotations: FloatArray) -> FloatArray:
-    """(k, 4) wxyz of rotation matrices (k, 3, 3).
-
-    Every row of 4 q q' is the quaternion q up to scale; the one with the largest diagonal is
-    the most exact one.
-    """
-    (a, b, c), (d, e, f), (g, h, i) = np.moveaxis(rotations, 0, -1)
-    outer = np.array(
-        [
-            [1.0 + a + e + i, h - f, c - g, d - b],
-            [h - f, 1.0 + a - e - i, b + d, c + g],
-            [c - g, b + d, 1.0 - a + e - i, f + h],
-            [d - b, c + g, f + h, 1.0 - a - e + i],
-        ]
-    )
-    best = np.argmax(np.einsum("iik->ik", outer), axis=0)
-    q = outer[best, :, np.arange(len(best))]
-    return q / np.linalg.norm(q, axis=1, keepdims=True)
+    """(k, 4) wxyz of rotation matrices (k, 3, 3)."""
+    return np.asarray(Rotation.from_matrix(rotations).as_quat(scalar_first=True), dtype=np.float64)
 
 
 def facing(direction: FloatArray) -> FloatArray:

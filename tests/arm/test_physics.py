@@ -24,9 +24,9 @@ AGREED = 0.005
 TURNED = (math.cos(0.3), math.sin(0.3), 0.0, 0.0)
 SHAPES = [
     Sphere("ball", (0.1, -0.45, 0.3), 0.06),
-    Box("box", (-0.1, -0.4, 0.3), (0.12, 0.1, 0.2), TURNED),
-    Cylinder("can", (0.0, -0.5, 0.2), 0.05, 0.25, TURNED),
-    Ring("ring", (0.1, -0.45, 0.35), 0.1, 0.01, TURNED),
+    Box("box", (-0.1, -0.4, 0.3), (0.12, 0.1, 0.2), wxyz=TURNED),
+    Cylinder("can", (0.0, -0.5, 0.2), 0.05, 0.25, wxyz=TURNED),
+    Ring("ring", (0.1, -0.45, 0.35), 0.1, 0.01, wxyz=TURNED),
 ]
 
 

@@ -16,9 +16,9 @@ TURNED = (math.cos(0.4), 0.0, math.sin(0.4), 0.0)
 @pytest.mark.parametrize(
     "shape",
     [
-        Box("b", (0.1, 0.2, 0.3), (0.1, 0.2, 0.3), TURNED),
+        Box("b", (0.1, 0.2, 0.3), (0.1, 0.2, 0.3), wxyz=TURNED),
         Sphere("s", (0.1, 0.2, 0.3), 0.1),
-        Cylinder("c", (0.1, 0.2, 0.3), 0.1, 0.2, TURNED),
+        Cylinder("c", (0.1, 0.2, 0.3), 0.1, 0.2, wxyz=TURNED),
     ],
 )
 def test_a_convex_shape_is_one_body_at_its_own_place(shape: Shape) -> None:
@@ -28,7 +28,7 @@ def test_a_convex_shape_is_one_body_at_its_own_place(shape: Shape) -> None:
 
 
 def test_the_pose_of_a_shape_is_a_rotation_at_its_position() -> None:
-    pose = pose_of(Box("b", (0.1, 0.2, 0.3), (0.1, 0.1, 0.1), (2.0, 0.0, 2.0, 0.0)))
+    pose = pose_of(Box("b", (0.1, 0.2, 0.3), (0.1, 0.1, 0.1), wxyz=(2.0, 0.0, 2.0, 0.0)))
 
     np.testing.assert_allclose(pose[:3, :3] @ pose[:3, :3].T, np.eye(3), atol=1e-12)
     np.testing.assert_allclose(pose[:3, :3] @ [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], atol=1e-12)
@@ -62,6 +62,6 @@ def test_a_place_or_a_turn_that_is_none_is_refused() -> None:
     with pytest.raises(ArmInputError, match="position"):
         Sphere("s", (0.0, math.inf, 0.0), 0.1)
     with pytest.raises(ArmInputError, match="orientation"):
-        Sphere("s", (0.0, 0.0, 0.0), 0.1, (0.0, 0.0, 0.0, 0.0))
+        Sphere("s", (0.0, 0.0, 0.0), 0.1, wxyz=(0.0, 0.0, 0.0, 0.0))
     with pytest.raises(ArmInputError, match="mass"):
         Sphere("s", (0.0, 0.0, 0.0), 0.1, mass=-1.0)

@@ -15,7 +15,7 @@ from gc_core import (
     reproduce,
     same_content,
 )
-from gc_core.landmarks import quaternion_matrices
+from gc_core.landmarks import rotation as axes_of
 from gc_core.radius import GREATEST_SLOPE
 from gc_core.registration import turns_inside_out
 from gc_core.sections import SECTIONS
@@ -43,7 +43,7 @@ def test_a_rigid_map_moves_the_cylinder(seed: int, section: str) -> None:
         Landmark(rng.normal(size=3), rng.normal(size=4)),
     )
     moved = generalize(cylinder, register([here], [there]))
-    turn = quaternion_matrices(there.orientation)
+    turn = axes_of(there)
 
     np.testing.assert_allclose(moved.directrix, cylinder.directrix @ turn.T + there.position, atol=1e-9)
     np.testing.assert_allclose(moved.frames, turn @ cylinder.frames, atol=1e-9)

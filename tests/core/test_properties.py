@@ -34,7 +34,7 @@ from gc_core import (
 )
 from gc_core.alignment import ALIGNMENTS
 from gc_core.arrays import FloatArray
-from gc_core.landmarks import quaternion_matrices
+from gc_core.landmarks import rotation as axes_of
 from gc_core.radius import radius_at
 from gc_core.sections import SECTIONS
 from tests.core.shapes import FLAT_PATHS, Bundle, bundles, hairpins, moved, rotation, seeds
@@ -200,7 +200,7 @@ def test_generalizing_by_a_rigid_motion_moves_the_cylinder(bundle: Bundle, secti
     before = Landmark(np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0]))
     after = Landmark(bundle.size * rng.normal(size=3), rng.normal(size=4))
     assert after.orientation is not None
-    turn = quaternion_matrices(after.orientation)
+    turn = axes_of(after)
     there = generalize(cylinder, register([before], [after]))
 
     exact = 1e-7 * bundle.size
