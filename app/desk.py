@@ -9,17 +9,18 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
-from app import attention, edits, gesture, handpull, player, sentences
+from app import attention, edits, gesture, handpull, sentences
 from app.actions import Drag
 from app.arm.protocol import Arm
 from app.document import Document, FloatArray, View
-from app.driver import Driver, Lead, lead_at
 from app.files import Frame, Reading, Unit
 from app.gesture import Pull
 from app.grasp import Grasp
 from app.handpull import HandPull
 from app.model import Model, learn
+from app.stage import Stage
 from app.store import Hand, Offer, Plan, Playback, State, Store
+from app.surroundings import conditions_of
 
 SLIP: Final = 0.001
 """A pull shorter than this was a slip of the hand and changes nothing [m]."""
@@ -29,8 +30,6 @@ PATIENCE: Final = 0.08
 """A pulled hand moves with the events of the pull; after a longer silence it moves on by itself [s]."""
 LONGEST_WAY: Final = 3.0
 """A hand that is moved by numbers is given this time to arrive, which takes it anywhere [s]."""
-GLIDE: Final = 0.7
-"""In a loop the arm goes back to the start in what is left of the rest after this part of it."""
 
 
 class Desk:
@@ -41,16 +40,13 @@ class Desk:
         self.store = Store(document)
         self.view = View()
         self.model = learn(document)
-        self.plan: Plan | None = None
+        self.stage = Stage(arm)
         self.offer: Offer | None = None
         self.message, self.warning = document.about, False
-        self.playback = Playback(playing=True)
-        self._arm = arm
-        self._driver = Driver(arm)
         self._held: Grasp | None = None
         self.saved = self.saving = document
         self._reading: Reading | None = None
-        self._refresh()
+        self._set_stage()
 
     # --- what is drawn -----------------------------------------------------------------
 
@@ -62,9 +58,9 @@ class Desk:
             document=document,
             view=self.view,
             model=self.model,
-            hand=self._driver.hand,
-            playback=replace(self.playback, time=min(self.playback.time, self.playback.duration)),
-            plan=self.plan if self.plan is not None and self.plan.source is self.model else None,
+            hand=self.stage.hand,
+            playback=self.stage.shown,
+            plan=self.stage.plan(self.model),
             dragging=None if self._held is None else self._held.node,
             undo_name=self.store.undo_name,
             redo_name=self.store.redo_name,
@@ -81,23 +77,21 @@ class Desk:
             document = self._held.shown(document)
         if self.model.source is not document:
             self.model = learn(document, self.model, coarse=self._held is not None)
-            self._refresh()
+            self._set_stage()
         return document
 
+    def _set_stage(self) -> None:
+        """Fit the arm and the playhead to the present model and view."""
+        self.stage.heed(conditions_of(self.model, self.view))
+        self.stage.fit(self.model)
+
     def _words(self) -> tuple[str, bool]:
-        said = attention.urgent(self._driver.hand, self._held, self.model, self._arm)
+        said = attention.urgent(self.stage.hand, self._held, self.model, self.stage.arm)
         return (self.message, self.warning) if said is None else said
 
     def say(self, message: str, *, warning: bool = False) -> None:
         """Show a sentence."""
         self.message, self.warning = message, warning
-
-    def _refresh(self) -> None:
-        """Fit the playback to the runs of the present model."""
-        runs = self.model.runs
-        run = min(self.playback.run, max(len(runs) - 1, 0))
-        duration = float(runs[run].reproduction.times[-1]) if runs else 0.0
-        self.playback = player.with_duration(replace(self.playback, run=run), duration)
 
     # --- edits -------------------------------------------------------------------------
 
@@ -125,16 +119,17 @@ class Desk:
         """Put another skill on the desk; can be undone. In an empty one the hand goes home."""
         self.let_go(now)
         self.store.replace(document, f"open {document.title}", now=now)
-        self.playback = Playback(playing=bool(document.demonstrations))
+        self.stage.playback = Playback(playing=bool(document.demonstrations))
         if document.demonstrations:
-            self._driver.lead()
+            self.stage.driver.lead()
         else:
-            self._driver.released(self._driver.hand, self._arm.home, now)
+            self.stage.driver.released(self.stage.hand, self.stage.arm.home, now)
         self.say(document.about)
 
     def look(self, **changes: Any) -> None:
         """Change what is looked at."""
         self.view = replace(self.view, **changes)
+        self._set_stage()
 
     def toggle_gripper(self) -> None:
         """Open or close the hand; recorded while it is pulled."""
@@ -142,7 +137,7 @@ class Desk:
         gripper = float(self.view.gripper_closed)
         if self._held is not None and isinstance(self._held.pull, HandPull):
             self._held.pull.set_gripper(gripper)
-        self._driver.grip(gripper)
+        self.stage.driver.grip(gripper)
 
     # --- files -------------------------------------------------------------------------
 
@@ -182,33 +177,17 @@ class Desk:
 
     # --- playback ----------------------------------------------------------------------
 
-    def play(self, playing: bool) -> None:
-        """Start or pause."""
-        self.playback = player.play(self.playback, playing)
-        self._driver.lead()
-
-    def pause(self) -> None:
-        """Stop playing because nobody is there."""
-        self.playback = player.play(self.playback, False)
-
     def accept_plan(self, plan: Plan) -> None:
         """Take over a joint path from the worker; says where the arm cannot follow."""
-        self.plan = plan
+        self.stage.accept(plan)
         words = sentences.unreached(plan.path)
         if words is not None and plan.source is self.model:
             self.say(words, warning=True)
 
-    def seek(self, time: float) -> None:
-        """Move the playhead; the arm goes there."""
-        self.playback = player.seek(self.playback, time)
-        self._driver.lead()
-
     def choose_run(self, run: int) -> None:
         """Play another reproduction from its beginning."""
         if 0 <= run < len(self.model.runs):
-            self.playback = replace(self.playback, run=run, time=0.0)
-            self._refresh()
-            self._driver.lead()
+            self.stage.cue(run, self.model)
 
     # --- pulls -------------------------------------------------------------------------
 
@@ -222,31 +201,28 @@ class Desk:
         elif held is not None and held.node == drag.node:
             held.follow(drag)
         if held is not None and isinstance(held.pull, HandPull):
-            self._driver.pulled(held.pull.advance(drag.time))
+            self.stage.driver.pulled(held.pull.advance(drag.time))
 
     def _grab(self, drag: Drag) -> Grasp | None:
         pull: Pull | HandPull | None
         if drag.node == "/hand":
             pull = self._take_hand(drag.time, records=not drag.aside)
-            self.playback = replace(self.playback, playing=False)
+            self.stage.pause()
         else:
             pull = gesture.pull_on(drag.node, drag.grabbed, self.model, self.view.pull_width)
         if pull is None:
             return None
         self.say("")
         if drag.node.startswith("/start/"):
-            run = int(drag.node.rpartition("/")[2])
-            self.playback = replace(self.playback, playing=False, time=0.0, run=run)
-            self._refresh()
-            self._driver.lead()
+            self.stage.cue(int(drag.node.rpartition("/")[2]), self.model, playing=False)
         held = Grasp(pull, gesture.begin(drag), self.model, drag.time)
         held.aim(drag)
         return held
 
     def _take_hand(self, now: float, *, records: bool) -> HandPull:
         """Take the hand, open or closed as it is shown; what was played may have left it otherwise."""
-        hand = replace(self._driver.hand, gripper=float(self.view.gripper_closed))
-        return HandPull(self._arm, hand, now, records=records)
+        hand = replace(self.stage.hand, gripper=float(self.view.gripper_closed))
+        return HandPull(self.stage.arm, hand, now, records=records)
 
     def let_go(self, now: float) -> None:
         """End whatever is pulled, and keep what it did."""
@@ -259,10 +235,10 @@ class Desk:
         elif held.moved >= SLIP:
             self.store.edit(lambda d: pull.apply(d, held.track.displacement), pull.name, now=now)
             if pull.node.startswith("/start/"):
-                self.playback = player.play(replace(self.playback, time=0.0), True)
+                self.stage.cue(self.stage.playback.run, self.model, playing=True)
 
     def _let_hand_go(self, pull: HandPull, hand: Hand, now: float, among: Model) -> None:
-        self._driver.released(hand, pull.begins_at.joints if pull.records else None, now)
+        self.stage.driver.released(hand, pull.begins_at.joints if pull.records else None, now)
         if not pull.records:
             self.say("The next demonstration begins here.")
             return
@@ -278,7 +254,7 @@ class Desk:
     def move_hand(self, position: FloatArray, now: float) -> None:
         """Move the hand, and the start of the next demonstration, without recording."""
         self.let_go(now)
-        self.playback = replace(self.playback, playing=False)
+        self.stage.pause()
         pull = self._take_hand(now, records=False)
         pull.aim(now, edits.point(position))
         self._let_hand_go(pull, pull.finish(LONGEST_WAY), now, self.model)
@@ -293,18 +269,7 @@ class Desk:
             held = None
         if held is not None and isinstance(held.pull, HandPull):
             if held.ends is None and now - held.followed > PATIENCE:
-                self._driver.pulled(held.pull.advance(now))
+                self.stage.driver.pulled(held.pull.advance(now))
             return True
-        self.playback = player.advance(self.playback, dt, speed=self.view.speed, loop=self.view.loop)
-        moving = self._driver.tick(now, dt, self._lead())
-        return moving or held is not None or self.playback.playing
-
-    def _lead(self) -> Lead | None:
-        """Find where the playhead wants the arm; in the rest of a loop it glides back to the start."""
-        runs, playback = self.model.runs, self.playback
-        if not runs:
-            return None
-        fits = self.plan is not None and self.plan.source is self.model and self.plan.run == playback.run
-        path = self.plan.path if self.plan is not None and fits else None
-        time = 0.0 if playback.time > playback.duration + GLIDE * player.REST else playback.time
-        return lead_at(time, runs[playback.run].reproduction, path)
+        moving = self.stage.tick(now, dt, self.model, speed=self.view.speed, loop=self.view.loop)
+        return moving or held is not None

@@ -11,7 +11,10 @@ from typing import Final, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from app.arm.shapes import Box, Cylinder, Ring, Shape, Sphere
 from gc_core import Constraint, Demonstration
+
+__all__ = ("Box", "Cylinder", "Ring", "Shape", "Sphere")
 
 FloatArray: TypeAlias = NDArray[np.float64]
 SectionKind: TypeAlias = Literal["circle", "ellipse", "closed_spline"]
@@ -89,6 +92,8 @@ class Document:
     starts: tuple[FloatArray, ...] = ()
     """Where reproductions begin, each (3,) [m]."""
     rules: tuple[Rule, ...] = ()
+    things: tuple[Shape, ...] = ()
+    """What stands in the way of the arm, and what it can carry; each has a name of its own."""
     built_in: bool = False
     """A built-in skill; its first edit makes a copy."""
 
@@ -111,5 +116,7 @@ class View:
     speed: float = 1.0
     """Playback speed as a multiple of the taught one."""
     loop: bool = True
+    tool: tuple[float, float, float, float] | None = None
+    """The tool is held like this while the arm is moved, w x y z; None: free, rather pointing down."""
     placing: LandmarkKind | None = None
     """The next click in the scene places a landmark of this kind."""

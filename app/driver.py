@@ -58,6 +58,10 @@ class Driver:
     def _at(self, joints: FloatArray, gripper: float = 0.0) -> Hand:
         return Hand(joints, self._arm.tool_pose(joints)[:3, 3], gripper)
 
+    def use(self, arm: Arm) -> None:
+        """From now on move the same arm under other conditions."""
+        self._arm = arm
+
     def lead(self) -> None:
         """From now on the arm follows the playhead."""
         self._leads, self._way = True, None

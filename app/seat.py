@@ -43,11 +43,11 @@ class Seat:
 
     def play(self, playing: bool) -> None:
         """See `Actions.play`."""
-        self._post(lambda desk, _: desk.play(playing))
+        self._post(lambda desk, _: desk.stage.play(playing))
 
     def seek(self, time: float) -> None:
         """See `Actions.seek`."""
-        self._post(lambda desk, _: desk.seek(time))
+        self._post(lambda desk, _: desk.stage.seek(time))
 
     def choose_run(self, run: int) -> None:
         """See `Actions.choose_run`."""

@@ -217,7 +217,7 @@ class Session:
         if not self._viewers:
             return False
         if now - self._touched > IDLE_AFTER:
-            self._desk.pause()
+            self._desk.stage.pause()
         return self._desk.tick(now, dt if dt < LONGEST_TICK else TICK)
 
     def _draw(self) -> None:
@@ -248,12 +248,12 @@ class Session:
             return
         self._planned = (model, run)
         positions = model.runs[run].reproduction.positions
-        near = state.hand.joints if self._desk.plan is None else self._desk.plan.path.joints[0]
+        near, conditions = self._desk.stage.begins_near(), self._desk.stage.arm.conditions
 
         def job() -> Plan:
             arm = self.workshop.make_arm()
             try:
-                return Plan(model, run, arm.follow(positions, near))
+                return Plan(model, run, arm.under(conditions).follow(positions, near))
             finally:
                 arm.close()
 

@@ -16,7 +16,7 @@ from typing import Any, Final, TypeAlias, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from app.document import Document, Place, Rule, Settings, Shown
+from app.document import Box, Cylinder, Document, Place, Ring, Rule, Settings, Shown, Sphere
 from app.library.errors import UnreadableSkillError
 from gc_core import Constraint, Demonstration
 
@@ -26,7 +26,20 @@ FORMAT: Final = 1
 """Raised when the JSON changes in a way that older programs would misread."""
 
 KINDS: Final[Mapping[str, type]] = {
-    kind.__name__: kind for kind in (Document, Shown, Demonstration, Place, Rule, Constraint, Settings)
+    kind.__name__: kind
+    for kind in (
+        Document,
+        Shown,
+        Demonstration,
+        Place,
+        Rule,
+        Constraint,
+        Settings,
+        Box,
+        Sphere,
+        Cylinder,
+        Ring,
+    )
 }
 """The dataclasses that a document is made of; nothing else is ever built from saved data."""
 

@@ -12,7 +12,7 @@ from tests.app.makers import Mouse, desk_of
 def desk() -> Desk:
     """A skill of three demonstrations, with the tiny arm, at rest."""
     made = desk_of()
-    made.pause()
+    made.stage.pause()
     made.state()
     return made
 

@@ -268,7 +268,7 @@ def test_nothing_plays_where_nothing_was_taught() -> None:
 
 
 def test_while_it_plays_the_arm_follows_the_run(desk: Desk, mouse: Mouse) -> None:
-    desk.play(True)
+    desk.stage.play(True)
     run = desk.model.runs[0].reproduction
     mouse.wait(1.0)
 
@@ -279,8 +279,8 @@ def test_while_it_plays_the_arm_follows_the_run(desk: Desk, mouse: Mouse) -> Non
 
 def test_a_joint_path_leads_the_arm_exactly(desk: Desk, mouse: Mouse) -> None:
     positions = desk.model.runs[0].reproduction.positions
-    desk.accept_plan(Plan(desk.model, 0, desk_of()._arm.follow(positions)))
-    desk.seek(1.0)
+    desk.accept_plan(Plan(desk.model, 0, desk_of().stage.arm.follow(positions)))
+    desk.stage.seek(1.0)
     mouse.wait(2.0)
 
     run = desk.model.runs[0].reproduction
@@ -290,7 +290,7 @@ def test_a_joint_path_leads_the_arm_exactly(desk: Desk, mouse: Mouse) -> None:
 
 def test_a_plan_of_a_former_model_is_not_shown(desk: Desk, mouse: Mouse) -> None:
     positions = desk.model.runs[0].reproduction.positions
-    desk.accept_plan(Plan(desk.model, 0, desk_of()._arm.follow(positions)))
+    desk.accept_plan(Plan(desk.model, 0, desk_of().stage.arm.follow(positions)))
     mouse.pull("/start/0", BY)
 
     assert desk.state().plan is None
@@ -300,7 +300,9 @@ def test_a_run_that_the_arm_cannot_reach_is_said_to_be_out_of_reach() -> None:
     far = replace(taught(), starts=(np.array([2.0, 0.0, 0.5]),))
     desk = desk_of(far)
 
-    desk.accept_plan(Plan(desk.model, 0, desk_of()._arm.follow(desk.model.runs[0].reproduction.positions)))
+    desk.accept_plan(
+        Plan(desk.model, 0, desk_of().stage.arm.follow(desk.model.runs[0].reproduction.positions))
+    )
 
     assert desk.warning
     assert "cannot reach" in desk.message
@@ -322,7 +324,7 @@ def test_after_a_start_was_pulled_its_run_plays_from_the_beginning(desk: Desk, m
 
 
 def test_playing_to_the_end_with_a_loop_glides_back_to_the_start(desk: Desk, mouse: Mouse) -> None:
-    desk.play(True)
+    desk.stage.play(True)
     run = desk.model.runs[0].reproduction
     mouse.wait(float(run.times[-1]) + 0.9 * REST)
 
@@ -332,7 +334,7 @@ def test_playing_to_the_end_with_a_loop_glides_back_to_the_start(desk: Desk, mou
 
 
 def test_the_glide_back_never_jumps(desk: Desk, mouse: Mouse) -> None:
-    desk.play(True)
+    desk.stage.play(True)
     run = desk.model.runs[0].reproduction
     mouse.wait(float(run.times[-1]) - 0.2)
     joints = [desk.state().hand.joints]
@@ -345,7 +347,7 @@ def test_the_glide_back_never_jumps(desk: Desk, mouse: Mouse) -> None:
 
 def test_without_a_loop_it_stops_at_the_end(desk: Desk, mouse: Mouse) -> None:
     desk.look(loop=False)
-    desk.play(True)
+    desk.stage.play(True)
     mouse.wait(float(desk.model.runs[0].reproduction.times[-1]) + 0.2)
 
     state = desk.state()
@@ -361,12 +363,12 @@ def test_an_arm_at_rest_asks_for_no_more_ticks(desk: Desk, mouse: Mouse) -> None
 def test_choosing_another_run_plays_it_from_its_beginning(desk: Desk, mouse: Mouse) -> None:
     desk.edit(lambda d: edits.add_start(d, FIRST_START - 0.03), "add a start", now=mouse.now)
     desk.state()
-    desk.seek(1.0)
+    desk.stage.seek(1.0)
 
     desk.choose_run(1)
     desk.choose_run(7)
 
-    assert (desk.playback.run, desk.playback.time) == (1, 0.0)
+    assert (desk.stage.playback.run, desk.stage.playback.time) == (1, 0.0)
 
 
 def test_when_the_played_run_goes_the_playhead_moves_to_one_that_is_left(desk: Desk, mouse: Mouse) -> None:

@@ -109,7 +109,7 @@ def test_grabbing_the_hand_pauses_the_playback() -> None:
 
 def test_after_the_release_the_arm_goes_back_by_itself_and_is_not_recorded(arm: Arm) -> None:
     desk = Desk(taught(), arm)
-    desk.pause()
+    desk.stage.pause()
     mouse = Mouse(desk)
     joints = desk.state().hand.joints
     mouse.pull("/hand", WAY)
@@ -343,7 +343,7 @@ def test_what_is_recorded_of_the_gripper_is_what_is_shown_though_a_run_was_playe
     desk: Desk, mouse: Mouse
 ) -> None:
     desk.toggle_gripper()
-    desk.play(True)
+    desk.stage.play(True)
     mouse.wait(1.0)
     mouse.pull("/hand", WAY)
 

@@ -59,7 +59,7 @@ def test_what_is_placed_among_moved_landmarks_is_where_it_was_placed() -> None:
 @pytest.mark.parametrize("kind", ["via", "obstacle", "object"])
 def test_beside_the_playhead_a_way_point_is_on_the_middle_line_and_what_stands_is_below_it(kind: str) -> None:
     desk = desk_of()
-    desk.seek(1.2)
+    desk.stage.seek(1.2)
     state = desk.state()
 
     place = placing.beside(state.model, state.playback, kind).taught

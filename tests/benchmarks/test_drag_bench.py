@@ -130,7 +130,7 @@ def test_the_servers_work(
     benchmark: BenchmarkFixture, handle: viser.ClientHandle, jaco: Jaco, node: str, n_samples: int
 ) -> None:
     desk = Desk(reaching(n_samples), jaco)
-    desk.pause()
+    desk.stage.pause()
     viewer = viewers.working(handle, Notes(), jaco, time.monotonic, [])
     puller = Puller(desk, viewer, node)
 

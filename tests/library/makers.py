@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from app.document import Document, Place, Rule, Settings, Shown
+from app.document import Box, Cylinder, Document, Place, Ring, Rule, Settings, Shown, Sphere
 from gc_core import Constraint, Demonstration
 
 
@@ -41,5 +41,11 @@ def document(n: int = 30, demonstrations: int = 2) -> Document:
         smoothing=0.1,
         starts=(np.array([0.1, 0.2, 0.3]), np.array([-0.0, 1e-300, np.pi])),
         rules=(Rule(constraint(), "Below the lid", enabled=False),),
+        things=(
+            Box("crate", (0.3, -0.2, 0.1), (0.1, 0.2, 0.2), wxyz=(0.0, 0.0, 0.0, 1.0), mass=0.2),
+            Sphere("ball", (0.3, 0.2, 0.1), 0.03, wxyz=(0.0, 0.0, 1.0, 0.0), mass=0.1),
+            Cylinder("post", (0.4, 0.0, 0.2), 0.05, 0.4, wxyz=(0.6, 0.8, 0.0, 0.0), mass=0.3),
+            Ring("hoop", (0.4, 0.3, 0.3), 0.1, 0.01, wxyz=(0.6, 0.0, 0.8, 0.0), mass=0.4),
+        ),
         built_in=True,
     )

@@ -1,0 +1,97 @@
+"""Where the arm plays: its posture, the playhead, and the joint path that leads it."""
+
+from dataclasses import replace
+from typing import Final
+
+from app import player
+from app.arm.conditions import Conditions
+from app.arm.protocol import Arm, FloatArray
+from app.driver import Driver, Lead, lead_at
+from app.model import Model
+from app.store import Hand, Plan, Playback
+
+GLIDE: Final = 0.7
+"""In a loop the arm goes back to the start in what is left of the rest after this part of it."""
+
+
+class Stage:
+    """The arm of one session and the time it plays in."""
+
+    def __init__(self, arm: Arm) -> None:
+        self.arm = arm
+        """Heeds what stands around and how the tool is held."""
+        self.driver = Driver(arm)
+        self.playback = Playback(playing=True)
+        self._plan: Plan | None = None
+
+    @property
+    def hand(self) -> Hand:
+        """Where the arm is now."""
+        return self.driver.hand
+
+    @property
+    def shown(self) -> Playback:
+        """The playhead, which waits at the end while the arm rests or glides back."""
+        return replace(self.playback, time=min(self.playback.time, self.playback.duration))
+
+    def heed(self, conditions: Conditions) -> None:
+        """From now on keep off these things and hold the tool like this."""
+        if conditions != self.arm.conditions:
+            self.arm = self.arm.under(conditions)
+            self.driver.use(self.arm)
+
+    def fit(self, model: Model) -> None:
+        """Fit the playback to the runs of a model."""
+        runs = model.runs
+        run = min(self.playback.run, max(len(runs) - 1, 0))
+        duration = float(runs[run].reproduction.times[-1]) if runs else 0.0
+        self.playback = player.with_duration(replace(self.playback, run=run), duration)
+
+    def plan(self, model: Model) -> Plan | None:
+        """Give the joint path of the run that is played, where it is known."""
+        plan = self._plan
+        fits = plan is not None and plan.source is model and plan.run == self.playback.run
+        return plan if fits else None
+
+    def accept(self, plan: Plan) -> None:
+        """Take over a joint path from the worker."""
+        self._plan = plan
+
+    def begins_near(self) -> FloatArray:
+        """(J,) joints near which the next joint path should begin [rad]."""
+        return self.hand.joints if self._plan is None else self._plan.path.joints[0]
+
+    def play(self, playing: bool) -> None:
+        """Start or pause."""
+        self.playback = player.play(self.playback, playing)
+        self.driver.lead()
+
+    def pause(self) -> None:
+        """Stop the playhead; the arm stays where it is."""
+        self.playback = player.play(self.playback, False)
+
+    def seek(self, time: float) -> None:
+        """Move the playhead; the arm goes there."""
+        self.playback = player.seek(self.playback, time)
+        self.driver.lead()
+
+    def cue(self, run: int, model: Model, *, playing: bool | None = None) -> None:
+        """Go to the beginning of a run."""
+        now = self.playback.playing if playing is None else playing
+        self.playback = replace(self.playback, run=run, time=0.0, playing=now)
+        self.fit(model)
+        self.driver.lead()
+
+    def tick(self, now: float, dt: float, model: Model, *, speed: float, loop: bool) -> bool:
+        """Move on what moves by itself; returns whether something still moves."""
+        self.playback = player.advance(self.playback, dt, speed=speed, loop=loop)
+        moving = self.driver.tick(now, dt, self._lead(model))
+        return moving or self.playback.playing
+
+    def _lead(self, model: Model) -> Lead | None:
+        """Find where the playhead wants the arm; in the rest of a loop it glides back to the start."""
+        if not model.runs:
+            return None
+        playback, plan = self.playback, self.plan(model)
+        time = 0.0 if playback.time > playback.duration + GLIDE * player.REST else playback.time
+        return lead_at(time, model.runs[playback.run].reproduction, None if plan is None else plan.path)
