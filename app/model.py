@@ -32,6 +32,9 @@ COARSE_ANGLES: Final = 32
 """Corners of a cross-section while something is dragged; more are not drawn then."""
 BEGINNING: Final = 0.1
 """A start within this part of the tube may join where it lies [-]."""
+STIFFNESS: Final = 0.03
+"""Of the map: more, and turned objects take less of the motion along; less, and one way point that is pulled
+takes all of it along (docs/transfer.md) [m]."""
 DEFAULT_RATIO: Final = 0.5
 """Without a start of one's own, the first reproduction begins this far off-centre."""
 
@@ -193,6 +196,7 @@ def _generalize(model: Model, former: Model, *, coarse: bool) -> Model:
         [landmark_of(anchor, anchor.taught, None) for anchor in anchors],
         [landmark_of(anchor, anchor.now, anchor.turn) for anchor in anchors],
         model.source.smoothing,
+        stiffness=STIFFNESS,
     )
     cylinder = generalize(model.taught, registration, repair=not coarse)
     return replace(model, registration=registration, cylinder=cylinder, hasty=coarse)

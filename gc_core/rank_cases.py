@@ -62,7 +62,9 @@ def dimensions(scaled: FloatArray) -> tuple[int, int]:
     return int((sizes > SPANNED).sum()), int((sizes >= FLAT).sum())
 
 
-def change_of_affine(scaled: FloatArray, gain: FloatArray, wanted: FloatArray) -> FloatArray:
+def change_of_affine(
+    scaled: FloatArray, gain: FloatArray, wanted: FloatArray, stiffness: float
+) -> FloatArray:
     """Choose how the affine part changes, in directions that landmarks hardly span too.
 
     Parameters
@@ -71,6 +73,8 @@ def change_of_affine(scaled: FloatArray, gain: FloatArray, wanted: FloatArray) -
         Landmarks about their mean, of spread 1 [-].
     gain, wanted : (3, 3) arrays
         The change D that bends least solves ``gain @ D = wanted``; both vanish where nothing is spanned.
+    stiffness : float
+        Holds it back in every direction [-].
 
     Returns
     -------
@@ -80,7 +84,7 @@ def change_of_affine(scaled: FloatArray, gain: FloatArray, wanted: FloatArray) -
     count = len(scaled)
     squares, axes = np.linalg.eigh(scaled.T @ scaled / count)
     flat = np.maximum(1.0 - np.maximum(squares, 0.0) / FLAT**2, 0.0) ** 2
-    held = (axes * (count * STIFFNESS * flat)) @ axes.T
+    held = (axes * (count * STIFFNESS * flat + stiffness)) @ axes.T
     return np.asarray(np.linalg.solve(gain + held, wanted), dtype=np.float64)
 
 
@@ -167,7 +171,7 @@ def not_collapsed(source: FloatArray, target: FloatArray, turn: FloatArray) -> F
     return target + max(LEAST_STRETCH - after / max(before, 1e-300), 0.0) * (source @ turn.T)
 
 
-def words(count: int, rank: int, strong: int, *, turned: bool, merged_count: int) -> str:
+def words(count: int, rank: int, strong: int, *, turned: bool, stiff: bool, merged_count: int) -> str:
     """Say which case it is.
 
     Parameters
@@ -180,6 +184,8 @@ def words(count: int, rank: int, strong: int, *, turned: bool, merged_count: int
         Those of them in which they differ by `FLAT` or more.
     turned : bool
         Whether they make a turn first.
+    stiff : bool
+        Whether a change of the affine part has a price.
     merged_count : int
         Landmarks that were merged into others.
 
@@ -192,12 +198,13 @@ def words(count: int, rank: int, strong: int, *, turned: bool, merged_count: int
         said = "one landmark: a translation"
     elif count == 2:
         said = f"two landmarks: {turn}a stretch along them"
-    elif count == 3 and strong == 2:
+    elif count == 3 and strong == 2 and not stiff:
         said = f"three landmarks: {turn}an affine map that keeps what is across"
     elif strong == 3:
-        said = "an affine map" if count == 4 else "a thin-plate spline"
+        said = turn + ("an affine map" if count == 4 and not stiff else "a thin-plate spline")
     else:
         almost = "almost " if rank > strong else ""
         place = "on a line" if strong == 1 else "in a plane"
         said = f"landmarks {almost}{place}: {turn}a thin-plate spline that keeps what is across"
+    said += " with a stiff affine part" if stiff and rank else ""
     return said + (f" ({merged_count} in the same place merged)" if merged_count else "")

@@ -61,7 +61,9 @@ class ThinPlateSpline:
         read_only_fields(self)
 
     @staticmethod
-    def fit(source: ArrayLike, target: ArrayLike, regularization: float = 0.0) -> ThinPlateSpline:
+    def fit(
+        source: ArrayLike, target: ArrayLike, regularization: float = 0.0, stiffness: float = 0.0
+    ) -> ThinPlateSpline:
         """Fit the smoothest map that takes points to points.
 
         Where the points span less than space, the map leaves the other directions as they are: the affine
@@ -75,6 +77,9 @@ class ThinPlateSpline:
             Landmarks before and after; any number L >= 0, coincident ones are merged [m].
         regularization : float
             lambda >= 0: 0 meets the targets exactly, more bends less [-].
+        stiffness : float
+            mu >= 0: mu |A - I|^2 is minimized with the bending energy. At 0, as in the paper, one landmark of
+            four shears all space; the more, the more local a pull is. The targets are met all the same [m].
 
         Returns
         -------
@@ -87,7 +92,7 @@ class ThinPlateSpline:
         LandmarkMismatchError
             If there are not as many targets as sources.
         InvalidSettingError
-            If the regularization is negative or not finite.
+            If the regularization or the stiffness is negative or not finite.
 
         References
         ----------
@@ -104,11 +109,12 @@ class ThinPlateSpline:
         after = finite(np.reshape(target, (-1, 3)) if np.size(target) == 0 else target, "target", (None, 3))
         if len(before) != len(after):
             raise LandmarkMismatchError(len(before), len(after))
-        if not 0.0 <= regularization < np.inf:
-            raise InvalidSettingError("regularization", regularization, "a number of at least 0")
+        for name, value in (("regularization", regularization), ("stiffness", stiffness)):
+            if not 0.0 <= value < np.inf:
+                raise InvalidSettingError(name, value, "a number of at least 0")
         if not len(before):
             return _affine(np.eye(3), np.zeros(3), np.zeros(3), "no landmarks: nothing moves", rank=0)
-        return _fit(before, after, regularization)
+        return _fit(before, after, regularization, stiffness)
 
     def __call__(self, points: ArrayLike) -> FloatArray:
         """Map points.
@@ -200,6 +206,8 @@ def register(
     source: Sequence[Landmark] | FloatArray,
     target: Sequence[Landmark] | FloatArray,
     regularization: float = 0.0,
+    *,
+    stiffness: float = 0.0,
 ) -> ThinPlateSpline:
     """Find the map of space that takes landmarks from where they were to where they are.
 
@@ -211,8 +219,8 @@ def register(
     ----------
     source, target : sequences of L Landmark, or (L, 3) arrays
         Paired by order [m].
-    regularization : float
-        lambda >= 0; 0 meets the targets exactly [-].
+    regularization, stiffness : float
+        lambda [-] and mu [m], at least 0, see `ThinPlateSpline.fit`; both 0 as in the paper.
 
     Returns
     -------
@@ -224,19 +232,19 @@ def register(
     LandmarkMismatchError
         If there are not as many targets as sources.
     ShapeError, NotFiniteError, InvalidSettingError
-        If the points or the regularization are not valid.
+        If the points, the regularization or the stiffness are not valid.
     """
     before, after = landmarks(source), landmarks(target)
     if len(before) != len(after):
         raise LandmarkMismatchError(len(before), len(after))
     pairs = [acting_points(a, b) for a, b in zip(before, after, strict=True)]
     if not pairs:
-        return ThinPlateSpline.fit(np.zeros((0, 3)), np.zeros((0, 3)), regularization)
+        return ThinPlateSpline.fit(np.zeros((0, 3)), np.zeros((0, 3)), regularization, stiffness)
     places, moved = (np.concatenate(side) for side in zip(*pairs, strict=True))
     if len(pairs) == 1 and len(places) > 1:
         (a, b), (one, two) = (before[0], after[0]), (rotation(before[0]), rotation(after[0]))
         return _affine(two @ one.T, a.position, b.position, "one frame: a rigid motion", rank=3)
-    spline = ThinPlateSpline.fit(places, moved, regularization)
+    spline = ThinPlateSpline.fit(places, moved, regularization, stiffness)
     frames = (len(places) - len(pairs)) // (ACTING - 1)
     if not frames:
         return spline
@@ -251,19 +259,23 @@ def _affine(
     return ThinPlateSpline(none, none, linear, origin, image, 1.0, 0.0, rank, case, 0.0)
 
 
-def _fit(all_sources: FloatArray, all_targets: FloatArray, regularization: float) -> ThinPlateSpline:
-    source, target = merged(all_sources, all_targets)
+def _fit(
+    sources: FloatArray, targets: FloatArray, regularization: float, stiffness: float
+) -> ThinPlateSpline:
+    source, target = merged(sources, targets)
     origin, image = source.mean(axis=0), target.mean(axis=0)
     centred, moved = source - origin, target - image
     scale = spread(centred)
     rank, strong = dimensions(centred / scale)
-    turn = first_turn(centred, moved) if 0 < strong < 3 else np.eye(3)
+    turn = first_turn(centred, moved) if strong and (strong < 3 or stiffness) else np.eye(3)
     if rank:
         moved = not_collapsed(centred, moved, turn)
-    weights, shift, change = _solve(centred / scale, (moved - centred @ turn.T) / scale, regularization)
+    wanted = (moved - centred @ turn.T) / scale
+    weights, shift, change = _solve(centred / scale, wanted, regularization, stiffness / scale)
     bent = bool(np.abs(weights).max() > STRAIGHT)
     weights = weights * scale
     kernel = _kernel(source, source, scale)
+    turned, lost = not np.array_equal(turn, np.eye(3)), len(sources) - len(source)
     spline = ThinPlateSpline(
         centres=source if bent else np.zeros((0, 3)),
         weights=weights if bent else np.zeros((0, 3)),
@@ -273,20 +285,14 @@ def _fit(all_sources: FloatArray, all_targets: FloatArray, regularization: float
         scale=scale,
         bending_energy=max(float(np.einsum("li,lm,mi->", weights, kernel, weights)) / scale, 0.0) * bent,
         rank=rank,
-        case=words(
-            len(source),
-            rank,
-            strong,
-            turned=not np.array_equal(turn, np.eye(3)),
-            merged_count=len(all_sources) - len(source),
-        ),
+        case=words(len(source), rank, strong, turned=turned, stiff=stiffness > 0.0, merged_count=lost),
         residual=0.0,
     )
-    return replace(spline, residual=float(np.linalg.norm(spline(all_sources) - all_targets, axis=1).max()))
+    return replace(spline, residual=float(np.linalg.norm(spline(sources) - targets, axis=1).max()))
 
 
 def _solve(
-    scaled: FloatArray, displacement: FloatArray, regularization: float
+    scaled: FloatArray, displacement: FloatArray, regularization: float, stiffness: float
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Weights (L, 3), shift (3,) and change of the affine part (3, 3) that displace landmarks (L, 3).
 
@@ -302,7 +308,7 @@ def _solve(
     solution = np.asarray(np.linalg.solve(system, right), dtype=np.float64)
     by_place, by_displacement = solution[:, :3], solution[:, 3:]
     gain, wanted = scaled.T @ by_place[:count], scaled.T @ by_displacement[:count]
-    change = change_of_affine(scaled, gain, wanted)
+    change = change_of_affine(scaled, gain, wanted, stiffness)
     solved = by_displacement - by_place @ change
     return solved[:count], solved[count], change
 
