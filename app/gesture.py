@@ -16,7 +16,7 @@ from app import edits
 from app.actions import Drag
 from app.document import Document, FloatArray
 from app.model import Model
-from gc_core import Constraint, Demonstration, Reproduction, soft_correction
+from gc_core import Constraint, Demonstration, soft_correction
 
 GRACE: Final = 0.15
 """A pull that ends and begins again on the same thing within this time is one [s]."""
@@ -130,7 +130,7 @@ def pull_on(node: str, grabbed: FloatArray, model: Model, width: float) -> Pull 
     if kind == "demonstrations" and 0 <= index < len(model.source.demonstrations):
         return _pull_demonstration(node, index, grabbed, model, width)
     if kind == "reproductions" and 0 <= index < len(model.runs):
-        return _pull_reproduction(node, model.runs[index].reproduction, grabbed, width)
+        return _pull_reproduction(node, index, grabbed, model, width)
     return None
 
 
@@ -178,13 +178,15 @@ def _pull_demonstration(node: str, index: int, grabbed: FloatArray, model: Model
     return Pull(node, f"correct {original.name}", apply)
 
 
-def _pull_reproduction(node: str, original: Reproduction, grabbed: FloatArray, width: float) -> Pull:
+def _pull_reproduction(node: str, index: int, grabbed: FloatArray, model: Model, width: float) -> Pull:
+    original = model.runs[index].reproduction
     nearest = _nearest(original.positions, grabbed)
 
     def apply(document: Document, by: FloatArray) -> Document:
         positions = soft_correction(original.positions, nearest, by, width)
         rule = Constraint.from_correction(original, replace(original, positions=positions))
-        return edits.add_rule(document, rule)
+        # A rule is kept as if nothing had been moved; landmarks carry it along.
+        return edits.add_rule(document, model.rule_taken_back(rule))
 
     return Pull(node, "add a rule", apply)
 

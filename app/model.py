@@ -11,17 +11,20 @@ from typing import Final
 
 import numpy as np
 
+from app import ruling
 from app.anchors import Anchor, landmark_of, same_anchors
 from app.document import Document, FloatArray, Settings
 from app.inverse import places_before
 from gc_core import (
     Constraint,
+    Contradiction,
     Demonstration,
     GcError,
     GeneralizedCylinder,
     Reproduction,
     ThinPlateSpline,
     constrain,
+    contradictions,
     encode,
     generalize,
     register,
@@ -68,7 +71,9 @@ class Model:
     cylinder: GeneralizedCylinder | None = None
     """The cylinder where the landmarks stand now."""
     constraints: tuple[Constraint, ...] = ()
-    """The rules that are on."""
+    """The rules that are on, moved with the landmarks."""
+    contradictions: tuple[Contradiction, ...] = ()
+    """Which of them cannot be obeyed together, and where."""
     runs: tuple[Run, ...] = ()
     coarse: bool = False
     """Encoded for a preview: with `COARSE_ANGLES`, crossing sections not mended."""
@@ -118,6 +123,10 @@ class Model:
         if self.registration is None or self._start is not None:
             return place - self.start_shift
         return self.taken_back(place[None])[0][0]
+
+    def rule_taken_back(self, constraint: Constraint) -> Constraint:
+        """Find how to keep a rule that was made with what is shown; see `app.ruling.taken_back`."""
+        return ruling.taken_back(constraint, self.registration, self.taught)
 
 
 def learn(document: Document, previous: Model | None = None, *, coarse: bool = False) -> Model:
@@ -220,10 +229,8 @@ def _reproduce(model: Model, former: Model) -> Model:
     cylinder = model.cylinder
     if cylinder is None:
         return model
-    constraints = tuple(rule.constraint for rule in model.source.rules if rule.enabled)
-    if _same(constraints, former.constraints):
-        constraints = former.constraints
-    model = replace(model, constraints=constraints)
+    model = _rule(model, former)
+    constraints = model.constraints
     starts = _starts(model, cylinder)
     former_runs = former.runs if cylinder is former.cylinder else ()
     runs = tuple(
@@ -231,6 +238,22 @@ def _reproduce(model: Model, former: Model) -> Model:
         for i, start in enumerate(starts)
     )
     return replace(model, runs=runs)
+
+
+def _rule(model: Model, former: Model) -> Model:
+    """Take the rules where the landmarks stand; the former ones where nothing changed."""
+    source, before = model.source, former.source
+    rules = ruling.enabled(source)
+    learned = former.cylinder is not None and model.registration is former.registration
+    if learned and _same(rules, ruling.enabled(before)):
+        constraints = former.constraints
+    else:
+        constraints = ruling.carried(rules, model.registration)
+    unchanged = constraints is former.constraints and source.settings.stations == before.settings.stations
+    if unchanged and ruling.names(source) == ruling.names(before):
+        return replace(model, constraints=constraints, contradictions=former.contradictions)
+    found = contradictions(constraints, source.settings.stations, ruling.names(source))
+    return replace(model, constraints=constraints, contradictions=found)
 
 
 def _run(

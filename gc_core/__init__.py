@@ -3,6 +3,7 @@
 from gc_core import metrics
 from gc_core.arrays import same_content
 from gc_core.constraints import Constraint, constrain
+from gc_core.contradictions import Contradiction, contradictions
 from gc_core.cylinder import GeneralizedCylinder
 from gc_core.demonstration import Demonstration
 from gc_core.diagnostics import Diagnostics
@@ -26,12 +27,13 @@ from gc_core.errors import (
 )
 from gc_core.generalization import generalize
 from gc_core.landmarks import Landmark
-from gc_core.refinement import soft_correction
+from gc_core.refinement import as_demonstration, refined, soft_correction
 from gc_core.registration import ThinPlateSpline, register
 from gc_core.reproduction import Reproduction, reproduce
 
 __all__ = [
     "Constraint",
+    "Contradiction",
     "DegenerateCurveError",
     "Demonstration",
     "Diagnostics",
@@ -53,10 +55,13 @@ __all__ = [
     "TooLateError",
     "UnknownOptionError",
     "ZeroQuaternionError",
+    "as_demonstration",
     "constrain",
+    "contradictions",
     "encode",
     "generalize",
     "metrics",
+    "refined",
     "register",
     "reproduce",
     "same_content",

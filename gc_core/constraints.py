@@ -1,29 +1,35 @@
-"""Rules: a corrected run keeps later runs on its side, where they would pass it."""
+"""Rules: a corrected run keeps later runs on its side, where they would pass it.
+
+A rule belongs to parts of the way, from 0 at the beginning of the skill to 1 at its end, and not to
+numbers of stations: it means the same for runs with more stations, and for runs that join later.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations
 
 import numpy as np
 
-from gc_core.arrays import BoolArray, FloatArray, fading, finite, read_only_fields
+from gc_core.arrays import BoolArray, FloatArray, fading, finite, interpolated, read_only_fields
 from gc_core.errors import ShapeError, TooFewSamplesError
 from gc_core.frames import arc_length
+from gc_core.half_spaces import ALLOWED, step_to_allowed
+from gc_core.registration import ThinPlateSpline
 from gc_core.reproduction import Reproduction
 
 LEAST_CORRECTION = 0.001
 """A station where the correction is shorter makes no plane [m]."""
 
 FADE_LENGTH = 0.08
-"""Beyond the corrected span, what a run was moved in excess of the teacher fades out over this length [m]."""
+"""Beyond a corrected span, what a run was moved in excess of the teacher fades out over this length, or over
+that excess where it is more [m]."""
 
-ALLOWED = 1e-13
-"""A place this little behind a plane is on it: rounding [m]."""
+SAME_PART = 1e-9
+"""Parts of the way that differ by less are the same."""
 
-CORNERS = 3
-"""In space, the nearest point of an intersection of half-spaces lies on at most this many planes."""
+SINGULAR = 1e-12
+"""A map that changes volumes by less than this has no inverse [-]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +37,7 @@ class Constraint:
     """Half-spaces along a corrected run: behind a plane nothing may pass. Made by `from_correction`."""
 
     stations: FloatArray
-    """(K,) stations of the run, increasing [-]."""
+    """(K,) stations of the run, increasing; the last is the last of the skill [-]."""
     points: FloatArray
     """(K, 3) corrected places, through which the planes go [m]."""
     normals: FloatArray
@@ -45,9 +51,19 @@ class Constraint:
         read_only_fields(self)
 
     @property
+    def parts(self) -> FloatArray:
+        """(K,) the part of the way at each station, up to 1 [-]."""
+        return _parts(self.stations)
+
+    @property
     def active(self) -> BoolArray:
         """(K,) where there is a plane."""
         return self.lengths >= LEAST_CORRECTION
+
+    @property
+    def moves(self) -> FloatArray:
+        """(K, 3) the corrections v; transposed they are the refinement matrix V, 0 below 1 mm [m]."""
+        return self.lengths[:, None] * self.normals
 
     @staticmethod
     def from_correction(
@@ -68,7 +84,7 @@ class Constraint:
         Returns
         -------
         Constraint
-            Of an array, the stations are 0 to K - 1.
+            The samples of an array are spread evenly over the whole way; a run knows where it joined.
 
         Raises
         ------
@@ -92,23 +108,80 @@ class Constraint:
         normals = np.where(active, moved / np.maximum(lengths, LEAST_CORRECTION)[:, None], 0.0)
         return Constraint(stations, after, normals, lengths, name)
 
+    def carried(self, registration: ThinPlateSpline) -> Constraint:
+        """Move the rule with the space around it.
+
+        Parameters
+        ----------
+        registration : ThinPlateSpline
+            Map of space, from `register`.
+
+        Returns
+        -------
+        Constraint
+            Points go where the map takes them; each plane becomes the tangent plane of its image, and its
+            allowed side stays allowed. Wherever there was a plane there is one.
+        """
+        inverse = _inverse_transposed(registration.jacobian(self.points))
+        return self._turned(registration(self.points), inverse)
+
+    def taken_back(self, registration: ThinPlateSpline, places: FloatArray) -> Constraint:
+        """Undo `carried`.
+
+        Parameters
+        ----------
+        registration : ThinPlateSpline
+            Map of space, from `register`.
+        places : (K, 3) array
+            The places that the map takes to the rule's points [m].
+
+        Returns
+        -------
+        Constraint
+            The rule as it was before the map.
+
+        Raises
+        ------
+        ShapeError, NotFiniteError
+            If the places are not as many finite places.
+        """
+        before = finite(places, "places", (len(self.points), 3))
+        return self._turned(before, np.swapaxes(registration.jacobian(before), 1, 2))
+
+    def _turned(self, points: FloatArray, turn: FloatArray) -> Constraint:
+        """Give it other points (K, 3), and the normals that matrices (K, 3, 3) make of its own."""
+        normals = np.einsum("kij,kj->ki", turn, self.normals)
+        stretch = np.linalg.norm(normals, axis=1)
+        active = self.active & (stretch > 0.0)
+        stretch = np.where(active, stretch, 1.0)
+        lengths = np.where(active, np.maximum(self.lengths / stretch, LEAST_CORRECTION), self.lengths)
+        return replace(self, points=points, normals=normals / stretch[:, None], lengths=lengths)
+
 
 @dataclass(frozen=True, eq=False)
-class _Planes:
-    """The planes of one constraint at the samples of a run."""
+class Planes:
+    """The planes of one constraint at K places along a skill."""
 
     points: FloatArray
+    """(K, 3) [m]."""
     normals: FloatArray
+    """(K, 3) unit, or 0 [-]."""
     lengths: FloatArray
+    """(K,) how far the teacher moved the run [m]."""
     active: BoolArray
+    """(K,) where there is a plane."""
+
+    def behind(self, run: FloatArray) -> FloatArray:
+        """Tell how far places (K, 3) lie behind the planes (K,), 0 where there is none [m]."""
+        return np.where(self.active, np.einsum("ij,ij->i", self.points - run, self.normals), 0.0)
 
 
 def constrain(reproduction: Reproduction, constraints: Sequence[Constraint]) -> Reproduction:
     """Move a run to the allowed side of all rules, and no further.
 
-    At every station the nearest point of the intersection of the half-spaces is taken. Beyond the ends of
+    At every station the nearest place of the intersection of the half-spaces is taken. Beyond the ends of
     a corrected span, what the run was moved in excess of the teacher's own correction there fades
-    out over 8 cm.
+    out over 8 cm, or over as much as that excess where it is more.
 
     Parameters
     ----------
@@ -121,7 +194,8 @@ def constrain(reproduction: Reproduction, constraints: Sequence[Constraint]) -> 
     -------
     Reproduction
         The same object when no sample is behind a plane. Ratios stay those of the unconstrained run. Where
-        rules contradict each other, the violation is as small as one of their corners allows.
+        rules contradict each other (`contradictions`), the violation is as small as one of their corners
+        allows.
 
     References
     ----------
@@ -131,106 +205,111 @@ def constrain(reproduction: Reproduction, constraints: Sequence[Constraint]) -> 
     """
     if not constraints:
         return reproduction
-    planes = [_planes(constraint, reproduction.stations) for constraint in constraints]
+    parts = _parts(reproduction.stations)
+    planes = [planes_at(constraint, parts) for constraint in constraints]
     single = reproduction.positions.ndim == 2
     runs = reproduction.positions[None] if single else reproduction.positions
-    moved = np.array([_moved(run, planes) for run in runs]).reshape(runs.shape)
+    moved = np.empty_like(runs)
+    for index, run in enumerate(runs):
+        late = _waiting(run)
+        own = planes
+        if late:  # A run that joins later waits at its start, where rules for before do not concern it.
+            joined = np.maximum(parts, parts[late])
+            own = [planes_at(constraint, joined) for constraint in constraints]
+        moved[index] = _moved(run, own)
     if np.array_equal(moved, runs):
         return reproduction
     return replace(reproduction, positions=moved[0] if single else moved)
+
+
+def planes_at(constraint: Constraint, parts: FloatArray) -> Planes:
+    """Planes of a rule at parts of the way.
+
+    Parameters
+    ----------
+    constraint : Constraint
+    parts : (P,) array
+        From 0 to 1 [-].
+
+    Returns
+    -------
+    Planes
+        Where the rule has a station, its own plane; between two of them, through the corrected path, across
+        the correction interpolated. None before the corrected run began.
+    """
+    known, moves = constraint.parts, constraint.moves
+    points, moved = (
+        np.stack([interpolated(parts, known, column) for column in values.T], axis=1)
+        for values in (constraint.points, moves)
+    )
+    lengths = interpolated(parts, known, constraint.lengths)
+    size = np.sqrt(np.einsum("ij,ij->i", moved, moved))
+    active = (lengths >= LEAST_CORRECTION) & (size > 0.0) & (parts >= known[0] - SAME_PART)
+    normals = np.where(active[:, None], moved / np.where(size > 0.0, size, 1.0)[:, None], 0.0)
+    return Planes(points, normals, lengths, active)
 
 
 def _path(run: Reproduction | FloatArray) -> FloatArray:
     return run.positions if isinstance(run, Reproduction) else run
 
 
-def _planes(constraint: Constraint, stations: FloatArray) -> _Planes:
-    """Planes at stations (K,): those of the corrected run's nearest station, within half a station."""
-    edges = 0.5 * (constraint.stations[1:] + constraint.stations[:-1])
-    index = np.searchsorted(edges, stations)
-    here = np.abs(constraint.stations[index] - stations) <= 0.5
-    return _Planes(
-        constraint.points[index],
-        constraint.normals[index],
-        constraint.lengths[index],
-        here & constraint.active[index],
-    )
+def _parts(stations: FloatArray) -> FloatArray:
+    """Parts of the way (K,) at the stations of a run (K,): all runs go on to the last station."""
+    return stations / stations[-1] if stations[-1] > 0.0 else np.ones_like(stations)
 
 
-def _moved(run: FloatArray, planes: Sequence[_Planes]) -> FloatArray:
+def _inverse_transposed(jacobian: FloatArray) -> FloatArray:
+    """Inverse transposes (K, 3, 3) of Jacobians, finite also where these have no inverse."""
+    a, b, c = (jacobian[:, :, column] for column in range(3))
+    cofactors = np.stack((np.cross(b, c), np.cross(c, a), np.cross(a, b)), axis=2)
+    volume = np.einsum("ki,ki->k", a, cofactors[:, :, 0])
+    volume = np.where(np.abs(volume) < SINGULAR, np.copysign(SINGULAR, volume), volume)
+    return cofactors / volume[:, None, None]
+
+
+def _waiting(run: FloatArray) -> int:
+    """Sample of a run (K, 3) up to which it waits at its start."""
+    gone = (run != run[0]).any(axis=1)
+    return int(np.argmax(gone)) - 1 if gone.any() else 0
+
+
+def _moved(run: FloatArray, planes: Sequence[Planes]) -> FloatArray:
     """Move one run (K, 3) behind no plane; untouched samples stay bit-identical."""
-    faded = sum((_faded(run, one) for one in planes), np.zeros_like(run))
-    touched = (faded != 0.0).any(axis=1)
-    begun = np.where(touched[:, None], run + faded, run)
-    depth = np.stack([_depth(begun, one) for one in planes], axis=1)
-    behind = np.flatnonzero((depth < 0.0).any(axis=1))
-    if not behind.size:
-        return begun
-    moved = begun.copy()
-    points = np.stack([one.points[behind] for one in planes], axis=1)
-    normals = np.stack([np.where(one.active[:, None], one.normals, 0.0)[behind] for one in planes], axis=1)
-    moved[behind] = nearest_allowed(begun[behind], points, normals)
+    asked = [_asked(run, one) for one in planes]
+    behind = np.stack([depth for depth, _ in asked], axis=1)
+    rows = np.flatnonzero((behind > ALLOWED).any(axis=1))
+    if not rows.size:
+        return run
+    normals = np.stack([across[rows] for _, across in asked], axis=1)
+    moved = run.copy()
+    moved[rows] += step_to_allowed(behind[rows], normals)
     return moved
 
 
-def _depth(run: FloatArray, planes: _Planes) -> FloatArray:
-    """Signed distance (K,) before the plane; 0 where there is none."""
-    return np.where(planes.active, np.einsum("ij,ij->i", run - planes.points, planes.normals), 0.0)
+def _asked(run: FloatArray, planes: Planes) -> tuple[FloatArray, FloatArray]:
+    """How far (K,) one rule wants the samples of a run (K, 3) moved, and in which directions (K, 3).
 
-
-def _faded(run: FloatArray, planes: _Planes) -> FloatArray:
-    """Displacement (K, 3) beyond the ends of the spans, for one constraint."""
-    push = np.maximum(-_depth(run, planes), 0.0)
-    excess = np.where(planes.active, np.maximum(push - planes.lengths, 0.0), 0.0)[:, None] * planes.normals
-    if not excess.any() or planes.active.all():
-        return np.zeros_like(run)
-    gone = arc_length(run)
-    index = np.arange(len(run))
-    before = np.maximum.accumulate(np.where(planes.active, index, -1))
-    after = np.minimum.accumulate(np.where(planes.active, index, len(run))[::-1])[::-1]
-    share_before = np.where(before >= 0, _fade(gone - gone[np.maximum(before, 0)]), 0.0)
-    share_after = np.where(after < len(run), _fade(gone[np.minimum(after, len(run) - 1)] - gone), 0.0)
-    total = np.maximum(share_before + share_after, 1.0)
-    moved = (share_before / total)[:, None] * excess[np.maximum(before, 0)]
-    moved = moved + (share_after / total)[:, None] * excess[np.minimum(after, len(run) - 1)]
-    return np.where(planes.active[:, None], 0.0, moved)
-
-
-def _fade(away: FloatArray) -> FloatArray:
-    return fading(np.clip(away / FADE_LENGTH, 0.0, 1.0))
-
-
-def nearest_allowed(places: FloatArray, points: FloatArray, normals: FloatArray) -> FloatArray:
-    """Nearest point of an intersection of half-spaces, for many places at once.
-
-    Parameters
-    ----------
-    places : (P, 3) array
-        [m].
-    points, normals : (P, C, 3) array
-        A point of each plane [m], and its unit normal towards the allowed side; a normal of 0 allows all.
-
-    Returns
-    -------
-    (P, 3) array
-        Exact: every set of up to three planes that could meet there is tried. Where the half-spaces have no
-        common point, the tried point with the least violation.
+    Beyond a span it is what is left of the excess, as if there were a plane so much ahead of the run.
     """
-    offset = np.einsum("pci,pci->pc", points - places[:, None], normals)
-    best = np.zeros_like(places)
-    best_cost = _cost(best, offset, normals)
-    for size in range(1, min(CORNERS, normals.shape[1]) + 1):
-        for chosen in combinations(range(normals.shape[1]), size):
-            some = normals[:, chosen, :]
-            gram = some @ np.swapaxes(some, 1, 2)
-            step = np.einsum("pk,pki->pi", (np.linalg.pinv(gram) @ offset[:, chosen, None])[..., 0], some)
-            cost = _cost(step, offset, normals)
-            better = cost < best_cost
-            best[better], best_cost[better] = step[better], cost[better]
-    return places + best
+    depth = planes.behind(run)
+    excess = np.where(planes.active, np.maximum(depth - planes.lengths, 0.0), 0.0)
+    if planes.active.all() or not excess.any():
+        return depth, planes.normals
+    faded = _faded(run, planes, excess)
+    far = np.sqrt(np.einsum("ij,ij->i", faded, faded))
+    across = faded / np.where(far > 0.0, far, 1.0)[:, None]
+    return np.where(planes.active, depth, far), np.where(planes.active[:, None], planes.normals, across)
 
 
-def _cost(step: FloatArray, offset: FloatArray, normals: FloatArray) -> FloatArray:
-    """Length of steps (P, 3), after any violation: a step that obeys all rules is always cheaper."""
-    violation = np.maximum(offset - np.einsum("pci,pi->pc", normals, step), 0.0).max(axis=1)
-    return np.linalg.norm(step, axis=1) + np.where(violation > ALLOWED, 1e6 * (1.0 + violation), 0.0)
+def _faded(run: FloatArray, planes: Planes, excess: FloatArray) -> FloatArray:
+    """Displacement (K, 3) that is left of an excess (K,) beyond the ends of the spans."""
+    gone, index, last = arc_length(run), np.arange(len(run)), len(run) - 1
+    before = np.maximum.accumulate(np.where(planes.active, index, -1))
+    after = np.minimum.accumulate(np.where(planes.active, index, last + 1)[::-1])[::-1]
+    moved, total = np.zeros_like(run), np.zeros(len(run))
+    for end, exists in ((np.maximum(before, 0), before >= 0), (np.minimum(after, last), after <= last)):
+        part = np.abs(gone - gone[end]) / np.maximum(FADE_LENGTH, excess[end])
+        share = np.where(exists, fading(np.minimum(part, 1.0)), 0.0)
+        moved += (share * excess[end])[:, None] * planes.normals[end]
+        total += share
+    return moved / np.maximum(total, 1.0)[:, None]

@@ -172,6 +172,16 @@ def enable_rule(document: Document, index: int, enabled: bool) -> Document:
     return replace(document, rules=rules)
 
 
+def rename_rule(document: Document, index: int, name: str) -> Document:
+    """Change a rule's name."""
+    rule = at(document.rules, index, "rule")
+    name = name.strip()[:LONGEST_NAME]
+    if not name or name == rule.name:
+        return document
+    rules = (*document.rules[:index], replace(rule, name=name), *document.rules[index + 1 :])
+    return replace(document, rules=rules)
+
+
 def delete_rule(document: Document, index: int) -> Document:
     """Forget a rule."""
     at(document.rules, index, "rule")

@@ -43,6 +43,7 @@ CHANGES: dict[str, Edit] = {
     "set_smoothing": lambda d: edits.set_smoothing(d, 0.25),
     "add_rule": lambda d: edits.add_rule(d, rule().constraint),
     "enable_rule": lambda d: edits.enable_rule(d, 0, False),
+    "rename_rule": lambda d: edits.rename_rule(d, 0, "Low ceiling"),
     "delete_rule": lambda d: edits.delete_rule(d, 0),
 }
 """One real change by every public edit."""
@@ -69,6 +70,7 @@ SAME: dict[str, Edit] = {
     "turn_landmark": lambda d: edits.turn_landmark(d, "cup", d.landmarks[2].turn.copy()),
     "set_smoothing": lambda d: edits.set_smoothing(d, d.smoothing),
     "enable_rule": lambda d: edits.enable_rule(d, 0, True),
+    "rename_rule": lambda d: edits.rename_rule(d, 0, f" {d.rules[0].name} "),
 }
 """Edits that ask for what is already so."""
 

@@ -11,7 +11,7 @@ import pytest
 from app import edits
 from app.document import Document, Place, Settings, Shown
 from app.model import learn
-from gc_core import Demonstration, same_content
+from gc_core import Constraint, Demonstration, GcError, same_content
 from tests.app.makers import demonstration, furnished, rule, taught
 from tests.app.test_edits import CHANGES
 
@@ -197,3 +197,64 @@ def test_a_start_near_the_end_of_the_tube_still_runs_the_whole_skill() -> None:
 
     assert len(moved.times) == len(model.cylinder.directrix)
     np.testing.assert_array_equal(moved.positions[0], near_the_end)
+
+
+def test_changing_the_number_of_stations_keeps_a_rule_where_it_was_made() -> None:
+    document = edits.add_rule(taught(), rule().constraint)
+    before = learn(document).runs[0].reproduction
+    after = learn(edits.set_stations(document, 173)).runs[0].reproduction
+
+    parts = [run.stations / run.stations[-1] for run in (before, after)]
+    expected = np.stack([np.interp(parts[1], parts[0], column) for column in before.positions.T], axis=1)
+    # A plane begins where the correction is one millimetre.
+    np.testing.assert_allclose(after.positions, expected, atol=2e-3)
+
+
+def test_a_rule_moves_with_the_landmarks() -> None:
+    goal = np.array([0.60, -0.25, 0.35])
+    moved = learn(edits.move_landmark(edits.add_rule(taught(), rule().constraint), "goal", goal))
+
+    (kept,) = moved.constraints
+    assert moved.registration is not None
+    np.testing.assert_allclose(kept.points, moved.registration(rule().constraint.points))
+    assert moved.runs[0].reproduction is not moved.runs[0].free
+
+
+def test_a_rule_made_while_a_landmark_is_moved_is_kept_as_taught_and_holds_where_it_was_made() -> None:
+    model = learn(edits.move_landmark(taught(), "goal", np.array([0.60, -0.25, 0.35])))
+    run = model.runs[0].reproduction
+    lower = run.positions - np.outer(np.sin(np.pi * run.stations / run.stations[-1]), [0.0, 0.0, 0.06])
+    made = Constraint.from_correction(run, lower)
+
+    (held,) = learn(edits.add_rule(model.source, model.rule_taken_back(made)), model).constraints
+    np.testing.assert_allclose(held.points, made.points, atol=1e-6)
+    np.testing.assert_allclose(held.normals[made.active], made.normals[made.active], atol=1e-5)
+
+
+def test_moving_a_landmark_there_and_back_leaves_ruled_runs_as_they_were() -> None:
+    document = edits.add_rule(taught(), rule().constraint)
+    before = learn(document)
+    there = learn(edits.move_landmark(document, "goal", np.array([0.60, -0.25, 0.35])), before)
+
+    back = learn(edits.put_landmark_back(there.source, "goal"), there)
+    assert same_content(back.runs, before.runs)
+
+
+def test_a_rule_where_landmarks_leave_no_room_is_refused_in_words() -> None:
+    start = learn(taught()).cylinder.directrix[0]
+    model = learn(edits.move_landmark(taught(), "goal", start + 1e-4))
+    run = model.runs[0].reproduction
+    made = Constraint.from_correction(run, run.positions + np.array([0.5, 0.5, 2.0]))
+
+    with pytest.raises(GcError, match="space folds where you correct this run"):
+        model.rule_taken_back(made)
+
+
+def test_rules_that_contradict_each_other_are_named() -> None:
+    down = rule("Lid").constraint
+    up = Constraint.from_correction(down.points, down.points + np.array([0.0, 0.0, 0.1]))
+    document = edits.add_rule(edits.add_rule(taught(), down), up)
+
+    (found,) = learn(document).contradictions
+    assert found.names == ("Rule 1", "Rule 2")
+    assert learn(edits.enable_rule(document, 0, False)).contradictions == ()

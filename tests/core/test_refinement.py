@@ -6,8 +6,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from gc_core import Constraint, GcError, constrain, encode, reproduce, same_content, soft_correction
-from gc_core.constraints import nearest_allowed
-from tests.core.shapes import bundle, line, seeds
+from tests.core.shapes import bundle, line
 
 PATH = bundle(0, 1)[0].positions
 PULL = np.array([0.0, 0.05, -0.02])
@@ -128,20 +127,6 @@ def test_the_order_of_rules_does_not_matter(order: list[int], start: tuple[float
 
     one, other = constrain(run, rules).positions, constrain(run, [rules[j] for j in order]).positions
     np.testing.assert_allclose(one, other, atol=1e-9)
-
-
-@given(seed=seeds, count=st.integers(1, 5))
-def test_the_nearest_allowed_place_is_allowed_and_nearest(seed: int, count: int) -> None:
-    rng = np.random.default_rng(seed)
-    normals = rng.normal(size=(20, count, 3))
-    normals /= np.linalg.norm(normals, axis=2, keepdims=True)
-    inner, places = rng.normal(size=(20, 3)), rng.normal(scale=3.0, size=(20, 3))
-    points = inner[:, None] - rng.uniform(0.0, 1.0, size=(20, count, 1)) * normals
-    nearest = nearest_allowed(places, points, normals)
-
-    assert np.einsum("pci,pci->pc", nearest[:, None] - points, normals).min() >= -1e-9
-    # The nearest place of a convex set sees every other allowed place, such as `inner`, at 90 degrees up.
-    assert np.einsum("pi,pi->p", places - nearest, inner - nearest).max() <= 1e-8
 
 
 def test_contradicting_rules_give_a_finite_run() -> None:
