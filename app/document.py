@@ -86,6 +86,8 @@ class Document:
     demonstrations: tuple[Shown, ...] = ()
     settings: Settings = Settings()
     landmarks: tuple[Place, ...] = (Place("start"), Place("goal"))
+    tries: tuple[Place, ...] = ()
+    """Where landmarks of these names may be moved, ``now``, to see the skill follow."""
     smoothing: float = 0.0
     """How much less the space between moved landmarks is bent, at the price of missing them: lambda of the
     thin-plate spline; 0 meets them exactly [-]."""

@@ -26,6 +26,7 @@ from app.panels.smoothing import SmoothingPanel
 from app.panels.starts import StartsPanel
 from app.panels.status import StatusPanel
 from app.panels.timeline import TimelinePanel
+from app.panels.tries import TriesPanel
 from app.store import State
 
 MAIN_WIDTH: Final = 320
@@ -89,6 +90,7 @@ def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]
     with tabs.add_tab("Move", viser.Icon.MAP_PIN):
         move: tuple[Panel, ...] = (
             LandmarksPanel(gui, actions),
+            TriesPanel(gui, actions),
             PlacingPanel(gui, actions),
             SmoothingPanel(gui, actions),
         )

@@ -64,6 +64,10 @@ def load_skill(folder: Path, name: str) -> Document:
             about=card.about,
             settings=Settings(section=card.section),
             landmarks=(Place("start"), Place("goal", taught=point(card.goal))),
+            tries=(
+                *(Place("goal", now=point(place)) for place in card.new_goals),
+                *(Place("start", now=point(place)) for place in card.new_starts),
+            ),
             starts=tuple(point(start) for start in card.starts),
             built_in=True,
         )

@@ -38,6 +38,15 @@ def document(n: int = 30, demonstrations: int = 2) -> Document:
                 turn=np.array([0.0, 0.1, 0.5]),
             ),
         ),
+        tries=(
+            Place(
+                "cup",
+                taught=np.array([0.1, -0.4, 0.2]),
+                now=np.array([0.0, -0.4, 0.2]),
+                kind="object",
+                turn=np.array([0.0, 0.0, 0.3]),
+            ),
+        ),
         smoothing=0.1,
         starts=(np.array([0.1, 0.2, 0.3]), np.array([-0.0, 1e-300, np.pi])),
         rules=(Rule(constraint(), "Below the lid", enabled=False),),

@@ -156,6 +156,27 @@ def test_a_landmark_without_a_place_yet_says_so(bench: Bench) -> None:
     assert says(bench, "Start · at the end of the motion, once it is taught")
 
 
+def test_a_skill_s_own_places_are_one_press_away(bench: Bench) -> None:
+    there = np.array([0.1, -0.4, 0.1])
+    document = replace(taught(), tries=(Place("goal", now=there), Place("start", now=there + 0.1)))
+    bench.draw(state_of(document))
+    bench.client.press("Start 1")
+
+    moved = {place.name: place.now for place in bench.edited(document).landmarks}
+    np.testing.assert_array_equal(moved["start"], there + 0.1)
+    assert moved["goal"] is None
+
+
+def test_a_place_for_a_landmark_that_is_gone_is_not_offered(bench: Bench) -> None:
+    document = replace(taught(), tries=(Place("goal", now=np.zeros(3)),))
+    bench.draw(state_of(document))
+    bench.client.press("Goal 1")
+    bench.draw(state_of(edits.remove_landmark(document, "goal")))
+
+    with pytest.raises(LookupError):
+        bench.client.press("Goal 1")
+
+
 def test_a_name_cannot_smuggle_in_a_picture(bench: Bench) -> None:
     document = edits.rename_landmark(furnished(), 1, "<img src=x onerror=alert(1)>")
     bench.draw(state_of(document))
