@@ -6,6 +6,9 @@ import math
 
 import numpy as np
 import numpy.typing as npt
+from scipy.spatial.transform import (  # pyright: ignore[reportMissingTypeStubs] - SciPy has none
+    Rotation,
+)
 
 from app.arm.errors import ArmInputError
 from app.arm.protocol import FloatArray
@@ -28,6 +31,14 @@ def path_of(value: npt.ArrayLike) -> FloatArray:
     if path.ndim != 2 or len(path) == 0:
         raise ArmInputError("a path", "(K, 3) positions with K >= 1", f"shape {path.shape}")
     return _array(path, "a path", (len(path), 3))
+
+
+def rotations_of(value: npt.ArrayLike, count: int) -> FloatArray:
+    """Give orientations w, x, y, z of any length but zero as (K, 3, 3) rotations."""
+    quaternions = _array(value, "orientations", (count, 4))
+    if not np.linalg.norm(quaternions, axis=1).all():
+        raise ArmInputError("orientations", "w, x, y and z, not all zero", "zeros among them")
+    return np.asarray(Rotation.from_quat(quaternions, scalar_first=True).as_matrix(), dtype=np.float64)
 
 
 def configurations_of(value: npt.ArrayLike, lower: FloatArray, upper: FloatArray) -> FloatArray:

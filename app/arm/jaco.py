@@ -14,9 +14,17 @@ from app.arm import meshes, urdf
 from app.arm.cache import prepared_folder
 from app.arm.conditions import FREE, Conditions
 from app.arm.errors import ArmClosedError
-from app.arm.inputs import configurations_of, duration_of, gripper_of, joints_of, path_of, position_of
-from app.arm.paths import find_path
-from app.arm.postures import OWN_BODY, search, way_to
+from app.arm.inputs import (
+    configurations_of,
+    duration_of,
+    gripper_of,
+    joints_of,
+    path_of,
+    position_of,
+    rotations_of,
+)
+from app.arm.paths import Course, find_path
+from app.arm.postures import OWN_BODY, search, swing, way_to
 from app.arm.programs import SAFE_DISTANCE
 from app.arm.protocol import HERE, STUCK, Clearance, FloatArray, JointPath, LinkMesh, Shortfall
 from app.arm.reach import Shell
@@ -160,16 +168,21 @@ class Jaco:
         wanted = SHELL.project(position_of(target))
         return self._use().drag(self._joints(joints), wanted, duration_of(dt))
 
-    def follow(self, positions: npt.ArrayLike, start: npt.ArrayLike | None = None) -> JointPath:
+    def follow(
+        self,
+        positions: npt.ArrayLike,
+        start: npt.ArrayLike | None = None,
+        orientations: npt.ArrayLike | None = None,
+    ) -> JointPath:
         """Lead the tool along a path; other postures are tried where the first one fails."""
-        path = path_of(positions)
+        path, solver = path_of(positions), self._use()
         first = None if start is None else self._joints(start)
-        wanted = SHELL.project(path, above_table=False)
-        found = find_path(self._use(), wanted, start=first, home=self._home)
-        if wanted is path or np.array_equal(wanted, path):
-            return found
-        tips = np.array([self._use().tip(joints) for joints in found.joints])
-        return JointPath(found.joints, np.linalg.norm(tips - path, axis=1))
+        wanted = None if orientations is None else rotations_of(orientations, len(path))
+        course = Course(SHELL.project(path, above_table=False), wanted)
+        found = find_path(solver, course, start=first, home=self._home)
+        poses = np.array([solver.frames(joints, (urdf.TOOL,))[0] for joints in found.joints])
+        turns = None if wanted is None else angles_between(poses[:, :3, :3], wanted)
+        return JointPath(found.joints, np.linalg.norm(poses[:, :3, 3] - path, axis=1), turns)
 
     def shortfall(self, joints: npt.ArrayLike, target: npt.ArrayLike) -> Shortfall | None:
         """Say why the tool is not at the target: reach, table, own body, a joint's limit."""
@@ -190,6 +203,11 @@ class Jaco:
         if np.linalg.norm(SHELL.project(wanted) - wanted) > HERE:
             return None
         return way_to(solver, self._joints(joints), wanted, self._home, solver.endless)
+
+    def way(self, joints: npt.ArrayLike, goal: npt.ArrayLike) -> FloatArray | None:
+        """Find a way from posture to posture, straight, folded up over the base, or by way of home."""
+        solver = self._use()
+        return swing(solver, self._joints(joints), self._joints(goal), self._home, solver.endless)
 
     def clearance(self, joints: npt.ArrayLike) -> Clearance:
         """Measure between boxes around the links, 26 pairs of them and every obstacle."""
@@ -227,7 +245,7 @@ class Jaco:
             return STUCK
         unlocked = Conditions(self._conditions.obstacles)
         if unlocked != self._conditions and search(self._seat.use(unlocked), target, self._home)[0]:
-            return "the tool is locked: unlock it"
+            return "the tool is held: let it turn freely"
         in_the_column = bool(np.linalg.norm(target[:2]) < _COLUMN_RADIUS and target[2] < _COLUMN_TOP)
         return "too close to its own base" if in_the_column and reason in ("", OWN_BODY) else reason
 
@@ -236,6 +254,12 @@ class Jaco:
 
     def _use(self) -> Solver:
         return self._seat.use(self._conditions)
+
+
+def angles_between(one: FloatArray, other: FloatArray) -> FloatArray:
+    """Give the angles (K,) between rotations (K, 3, 3) [rad]."""
+    cosine = 0.5 * (np.einsum("kij,kij->k", one, other) - 1.0)
+    return np.arccos(np.clip(cosine, -1.0, 1.0))
 
 
 @cache

@@ -52,17 +52,39 @@ class _Candidate:
         return 100.0 * self.missed + self.jump + 1000.0 * max(0.0, SAFE_DISTANCE - self.room)
 
 
-def find_path(
-    solver: Solver, positions: FloatArray, *, start: FloatArray | None, home: FloatArray
-) -> JointPath:
-    """Find continuous joints along positions.
+@dataclass(frozen=True, eq=False)
+class Course:
+    """What the tool should pass."""
+
+    positions: FloatArray
+    """(K, 3) reachable [m]."""
+    rotations: FloatArray | None = None
+    """(K, 3, 3) of the tool in the world; None: it rather points down."""
+
+    @property
+    def wrist(self) -> Wrist:
+        """How the tool is held on the way."""
+        return "down" if self.rotations is None else "shown"
+
+    def at(self, indices: npt.NDArray[np.intp]) -> Course:
+        """Give a part of it."""
+        rotations = self.rotations
+        return Course(self.positions[indices], None if rotations is None else rotations[indices])
+
+    def walk(self, solver: Solver, start: FloatArray, wrist: Wrist, *, careful: bool = False) -> JointPath:
+        """Lead the arm along it from joints (6,)."""
+        return solver.walk(self.positions, start, careful=careful, wrist=wrist, rotations=self.rotations)
+
+
+def find_path(solver: Solver, course: Course, *, start: FloatArray | None, home: FloatArray) -> JointPath:
+    """Find continuous joints along a course.
 
     Parameters
     ----------
     solver : Solver
         Solves; its state does not matter.
-    positions : (K, 3) array
-        Reachable tool positions [m].
+    course : Course
+        What the tool should pass.
     start : (6,) array or None
         Joints near which to begin, where that works as well [rad].
     home : (6,) array
@@ -73,22 +95,23 @@ def find_path(
     JointPath
         Joints and distances left.
     """
-    coarse = positions[_spread(len(positions), _N_COARSE)]
-    best = _best(solver, coarse, start, home, "down")
-    path = solver.walk(positions, best.joints)
-    if solver.room(path.joints[_spread(len(positions), _N_CHECKED)]) >= SAFE_DISTANCE:
+    n_positions = len(course.positions)
+    coarse = course.at(_spread(n_positions, _N_COARSE))
+    best = _best(solver, coarse, start, home, course.wrist)
+    path = course.walk(solver, best.joints, course.wrist)
+    if solver.room(path.joints[_spread(n_positions, _N_CHECKED)]) >= SAFE_DISTANCE:
         return path
     allowed, cost = max(_REACHED, path.errors.max()), _cost(solver, path)
     best_free = _best(solver, coarse, start, home, "free")
     others: tuple[tuple[FloatArray, Wrist, bool], ...] = (
-        (best.joints, "down", True),
+        (best.joints, course.wrist, True),
         (best_free.joints, "free", False),
         (best_free.joints, "free", True),
     )
     for begin, wrist, careful in others:
         if cost < _SMOOTH:
             break
-        other = solver.walk(positions, begin, careful=careful, wrist=wrist)
+        other = course.walk(solver, begin, wrist, careful=careful)
         other_cost = _cost(solver, other)
         if other.errors.max() <= allowed and other_cost < cost:
             path, cost = other, other_cost
@@ -102,7 +125,7 @@ def _cost(solver: Solver, path: JointPath) -> float:
 
 
 def _best(
-    solver: Solver, coarse: FloatArray, start: FloatArray | None, home: FloatArray, wrist: Wrist
+    solver: Solver, coarse: Course, start: FloatArray | None, home: FloatArray, wrist: Wrist
 ) -> _Candidate:
     """Give the first good posture to begin with, or the best of all."""
     best: _Candidate | None = None
@@ -116,8 +139,8 @@ def _best(
     return best
 
 
-def _try(solver: Solver, coarse: FloatArray, seed: FloatArray, wrist: Wrist) -> _Candidate:
-    path = solver.walk(coarse, seed, wrist=wrist)
+def _try(solver: Solver, coarse: Course, seed: FloatArray, wrist: Wrist) -> _Candidate:
+    path = coarse.walk(solver, seed, wrist)
     steps = np.abs(np.diff(path.joints, axis=0))
     return _Candidate(
         joints=path.joints[0],

@@ -15,7 +15,15 @@ import numpy.typing as npt
 
 from app.arm.conditions import FREE, Conditions
 from app.arm.errors import ArmClosedError
-from app.arm.inputs import configurations_of, duration_of, gripper_of, joints_of, path_of, position_of
+from app.arm.inputs import (
+    configurations_of,
+    duration_of,
+    gripper_of,
+    joints_of,
+    path_of,
+    position_of,
+    rotations_of,
+)
 from app.arm.protocol import HERE, Clearance, FloatArray, JointPath, LinkMesh, Shortfall
 from app.arm.reach import Shell
 
@@ -75,9 +83,16 @@ class PlanarArm:
         bound = _DRAG_SPEED * duration_of(dt)
         return before + np.clip(wanted - before, -bound, bound)
 
-    def follow(self, positions: npt.ArrayLike, start: npt.ArrayLike | None = None) -> JointPath:
-        """Solve every position; the turntable counts its turns."""
+    def follow(
+        self,
+        positions: npt.ArrayLike,
+        start: npt.ArrayLike | None = None,
+        orientations: npt.ArrayLike | None = None,
+    ) -> JointPath:
+        """Solve every position; the turntable counts its turns. Without a wrist no orientation is kept."""
         path = path_of(positions)
+        if orientations is not None:
+            rotations_of(orientations, len(path))
         last = self.home if start is None else self._joints(start)
         joints = np.empty((len(path), 3))
         for index, position in enumerate(SHELL.project(path, above_table=False)):
@@ -109,6 +124,10 @@ class PlanarArm:
         end = self._solve(SHELL.project(wanted), begin)
         missed = np.linalg.norm(self.tool_pose(end)[:3, 3] - wanted) > HERE
         return None if missed else np.array([begin, end])
+
+    def way(self, joints: npt.ArrayLike, goal: npt.ArrayLike) -> FloatArray:
+        """Go straight: nothing touches anything."""
+        return np.array([self._joints(joints), self._joints(goal)])
 
     def clearance(self, joints: npt.ArrayLike) -> Clearance:
         """Say that nothing is near."""

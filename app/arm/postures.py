@@ -8,6 +8,7 @@ question always gets the same answer.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -98,11 +99,7 @@ def way_to(
     solver: Solver, joints: FloatArray, target: FloatArray, home: FloatArray, endless: npt.NDArray[np.bool_]
 ) -> FloatArray | None:
     """Find joints (W, 6) to pass in straight lines to bring the tool to a target (3,); None: no way found."""
-
-    def near(posture: FloatArray, to: FloatArray) -> FloatArray:
-        turns = np.round((to - posture) / (2.0 * np.pi))
-        return posture + np.where(endless, 2.0 * np.pi * turns, 0.0)
-
+    near = partial(_near, endless)
     ends = [near(posture, joints) for posture, touched in reaching(solver, target, home) if not touched]
     ends.sort(key=lambda end: float(np.abs(end - joints).max()))
     under_the_table: FloatArray | None = None
@@ -114,6 +111,20 @@ def way_to(
                 under_the_table = way if under_the_table is None else under_the_table
     # A hand is dragged without regard to where the elbow is, so it may have to come back from down there.
     return under_the_table
+
+
+def swing(
+    solver: Solver, joints: FloatArray, goal: FloatArray, home: FloatArray, endless: npt.NDArray[np.bool_]
+) -> FloatArray | None:
+    """Find joints (W, 6) to pass in straight lines from one posture to another; None: no way found."""
+    ways = _ways(joints, goal, home, partial(_near, endless))
+    return next((way for way in ways if _is_above(solver, way) and _is_clear(solver, way)), None)
+
+
+def _near(endless: npt.NDArray[np.bool_], posture: FloatArray, to: FloatArray) -> FloatArray:
+    """Turn the endless joints of a posture round to where they are nearest to another one."""
+    turns = np.round((to - posture) / (2.0 * np.pi))
+    return posture + np.where(endless, 2.0 * np.pi * turns, 0.0)
 
 
 def _ways(
@@ -133,6 +144,12 @@ def _is_clear(solver: Solver, way: FloatArray) -> bool:
     """Say whether nothing touches on the straight lines of a way (W, 6); where it begins anything may."""
     at_first = min(_CLEAR, solver.room(way[:1]))
     return all(solver.room(joints[None]) >= at_first - 1e-6 for joints in _lines(way))
+
+
+def _is_above(solver: Solver, way: FloatArray) -> bool:
+    """Say whether a way (W, 6) stays above the table; where it begins and ends the arm may be lower."""
+    allowed = min(0.0, *(solver.lowest(joints) for joints in (way[0], way[-1])))
+    return all(solver.lowest(joints) >= allowed - 1e-6 for joints in _lines(way))
 
 
 def _lowest(solver: Solver, way: FloatArray) -> float:

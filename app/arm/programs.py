@@ -10,8 +10,8 @@ import numpy as np
 from app.arm import urdf
 from app.arm.protocol import FloatArray
 
-Wrist: TypeAlias = Literal["down", "free", "locked"]
-"""The tool rather points down, turns as it likes, or keeps an orientation."""
+Wrist: TypeAlias = Literal["down", "free", "locked", "shown"]
+"""The tool rather points down, turns as it likes, keeps an orientation, or rather follows those shown."""
 
 SAFE_DISTANCE = 0.01
 """Bodies of the arm stay this far from each other and from obstacles [m]."""
@@ -22,6 +22,8 @@ _DAMPING, _DAMPING_PER_METRE = 1e-6, 0.1
 _TOOL_DOWN, _POSTURE, _AVOID = 1e-5, 1e-6, 1e3
 _LOCKED = 0.1
 """A turn of the locked tool by 1 rad costs as much as a miss of 0.3 m."""
+_SHOWN = 1e-4
+"""Along a path the places come first: where both cannot be, the tool is turned otherwise."""
 TRIGGER = 0.06
 """Bodies begin to keep away from each other at this distance [m]."""
 
@@ -39,9 +41,9 @@ class Program:
         if wrist == "down":
             axis = self.solver.add_axisalign_task(urdf.TOOL, upwards, -upwards)
             axis.configure("tool down", "soft", _TOOL_DOWN)
-        if wrist == "locked":
+        if wrist in ("locked", "shown"):
             self._orientation = self.solver.add_orientation_task(urdf.TOOL, np.eye(3))
-            self._orientation.configure("locked", "soft", _LOCKED)
+            self._orientation.configure(wrist, "soft", _LOCKED if wrist == "locked" else _SHOWN)
         self._rest = self.solver.add_joints_task()
         self._rest.set_joints(dict.fromkeys(urdf.JOINT_NAMES, 0.0))
         self._rest.configure("posture", "soft", _POSTURE)
@@ -59,7 +61,7 @@ class Program:
         self._rest.set_joints(dict(zip(urdf.JOINT_NAMES, posture.tolist(), strict=True)))
 
     def hold(self, rotation: FloatArray) -> None:
-        """Lock the tool to a (3, 3) rotation in the world."""
+        """Want the tool at a (3, 3) rotation in the world; for a wrist that is locked or shown."""
         self._orientation.R_world_frame = rotation
 
     def aim(self, position: FloatArray) -> None:

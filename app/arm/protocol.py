@@ -49,6 +49,8 @@ class JointPath:
     """(K, J) joints at each position [rad]."""
     errors: FloatArray
     """(K,) distance from the tool to the wanted position [m]."""
+    turns: FloatArray | None = None
+    """(K,) how far the tool is turned away from the wanted orientation [rad]; None: none was wanted."""
 
 
 @dataclass(frozen=True)
@@ -207,7 +209,12 @@ class Arm(Protocol):
         """
         ...
 
-    def follow(self, positions: FloatArray, start: FloatArray | None = None) -> JointPath:
+    def follow(
+        self,
+        positions: FloatArray,
+        start: FloatArray | None = None,
+        orientations: FloatArray | None = None,
+    ) -> JointPath:
         """Lead the tool along a path, without jumps of the joints.
 
         Parameters
@@ -216,6 +223,8 @@ class Arm(Protocol):
             Wanted tool positions [m], in order; K >= 1.
         start : (J,) array, optional
             Joints near which the path should begin [rad].
+        orientations : (K, 4) array, optional
+            How the tool should be turned there, w x y z; instead of a lock. The positions come first.
 
         Returns
         -------
@@ -287,6 +296,27 @@ class Arm(Protocol):
             Joints to pass in straight lines, W >= 2: the first are those given, the last
             bring the tool to the target; no body touches another or an obstacle on the way.
             None when there is no such posture or no way to it was found.
+
+        Raises
+        ------
+        ArmInputError
+            If an argument has the wrong shape or is not finite.
+        """
+        ...
+
+    def way(self, joints: FloatArray, goal: FloatArray) -> FloatArray | None:
+        """Find a way from one posture to another, clear of the arm itself, of obstacles and of the table.
+
+        Parameters
+        ----------
+        joints, goal : (J,) array
+            Joints to begin from and to come to [rad].
+
+        Returns
+        -------
+        (W, J) array or None
+            Joints to pass in straight lines, W >= 2, from the first to the last of those given;
+            the straight line itself where that is clear. None when no way was found.
 
         Raises
         ------

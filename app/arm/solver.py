@@ -121,6 +121,7 @@ class Solver:
         *,
         careful: bool = False,
         wrist: Wrist | None = None,
+        rotations: FloatArray | None = None,
     ) -> JointPath:
         """Visit positions (K, 3) one after the other, each from the joints of the one before.
 
@@ -134,6 +135,8 @@ class Solver:
             Keep the bodies of the arm apart and off obstacles; costs ten times as much.
         wrist : optional
             How the tool is held; None: as the conditions say.
+        rotations : (K, 3, 3) array, optional
+            Of the tool in the world, for a wrist that is ``shown``.
 
         Returns
         -------
@@ -147,6 +150,8 @@ class Solver:
         for index, position in enumerate(positions):
             if careful:
                 self._bodies.watch(_FAR_AHEAD)
+            if wrist == "shown" and rotations is not None:
+                program.hold(rotations[index])
             errors[index] = self._converge(program, position, _FIRST if index == 0 else _OTHERS)
             joints[index] = self._joints()
         return JointPath(joints, errors)
@@ -187,7 +192,7 @@ class Solver:
 
     def _begin(self, joints: FloatArray, *, avoid: bool, wrist: Wrist | None) -> Program:
         """Place the arm and give the program for it."""
-        orientation = self._conditions.orientation
+        orientation = None if wrist == "shown" else self._conditions.orientation
         if wrist is None or orientation is not None:
             wrist = "down" if orientation is None else "locked"
         if (avoid, wrist) not in self._programs:

@@ -155,7 +155,7 @@ def test_a_hand_that_only_the_lock_keeps_away_is_told_so(jaco: Jaco) -> None:
     shortfall = arm.shortfall(pull(arm, jaco.home, high, 600)[-1], high)
 
     assert shortfall is not None
-    assert shortfall.reason == "the tool is locked: unlock it"
+    assert shortfall.reason == "the tool is held: let it turn freely"
 
 
 def test_a_view_is_closed_with_its_arm() -> None:
