@@ -7,6 +7,7 @@ along its own axes). The same motion at another pose is what a person would show
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -16,6 +17,11 @@ from gc_core import Demonstration, Landmark
 from gc_core.arrays import FloatArray
 
 KINDS = ("pick", "place")
+
+Turning: TypeAlias = Literal["turned", "moved alone", "turned about a leaning axis"]
+TURNINGS: tuple[Turning, ...] = get_args(Turning)
+LEAN = 30.0
+"""An axis leans from the vertical by at most this much [deg]."""
 
 SHOWN = 5
 SAMPLES = 200
@@ -54,8 +60,8 @@ class Transfer:
     """In the scene after."""
 
 
-def transfer(seed: int, kind: str, *, turned: bool = True) -> Transfer:
-    """A motion, an object moved by 10 to 25 cm and, if wanted, turned by 20 to 90 degrees."""
+def transfer(seed: int, kind: str, turning: Turning = "turned") -> Transfer:
+    """A motion, and an object that is moved by 10 to 25 cm and, if wanted, turned by 20 to 90 degrees."""
     rng = np.random.default_rng(seed)
     before = Scene(
         start=np.array([0.0, 0.0, 0.25]) + rng.uniform(-0.05, 0.05, 3),
@@ -64,15 +70,24 @@ def transfer(seed: int, kind: str, *, turned: bool = True) -> Transfer:
     )
     aside = rng.normal(size=3) * [1.0, 1.0, 0.3]
     about = np.array([0.0, 0.0, rng.choice([-1.0, 1.0])])
-    angle = np.deg2rad(rng.uniform(20.0, 90.0)) if turned else 0.0
+    if turning == "turned about a leaning axis":
+        about = _leaning(about, np.random.default_rng((seed, 1)))
+    angle = 0.0 if turning == "moved alone" else np.deg2rad(rng.uniform(20.0, 90.0))
     after = Scene(
         start=before.start + rng.uniform(-0.05, 0.05, 3),
         place=before.place + rng.uniform(0.10, 0.25) * aside / np.linalg.norm(aside),
-        turn=Rotation.from_rotvec(angle * about / np.linalg.norm(about)).as_matrix() @ before.turn,
+        turn=Rotation.from_rotvec(angle * about).as_matrix() @ before.turn,
     )
     shape = rng.uniform(-1.0, 1.0, 4)
     shown, truth = ([_shown(rng, scene, kind, shape) for _ in range(SHOWN)] for scene in (before, after))
     return Transfer(before, after, shown, truth)
+
+
+def _leaning(upright: FloatArray, rng: np.random.Generator) -> FloatArray:
+    """An axis (3,) that leans from an upright one by up to `LEAN`, any way."""
+    way = rng.uniform(0.0, 2.0 * np.pi)
+    lean = np.deg2rad(rng.uniform(0.0, LEAN)) * np.array([np.cos(way), np.sin(way), 0.0])
+    return Rotation.from_rotvec(lean).apply(upright)
 
 
 def _shown(rng: np.random.Generator, scene: Scene, kind: str, shape: FloatArray) -> Demonstration:

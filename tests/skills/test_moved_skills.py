@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from app.arm import Jaco
 from app.document import SECTION_KINDS
-from app.model import learn
+from app.model import STIFFNESS, learn
 from app.skills import load_card, load_skill
 from gc_core import GeneralizedCylinder, ThinPlateSpline, encode, generalize, register, reproduce
 from tests.skills.curves import bow, shape_change
@@ -71,7 +71,7 @@ def ends(move: Move) -> tuple[np.ndarray, np.ndarray]:
 
 @cache
 def map_of(move: Move) -> ThinPlateSpline:
-    return register(*ends(move))
+    return register(*ends(move), stiffness=STIFFNESS)
 
 
 @cache
@@ -82,8 +82,9 @@ def moved(move: Move, section: str) -> GeneralizedCylinder:
 
 
 def new_starts(move: Move) -> np.ndarray:
-    """(S, 3) where the skill's own reproductions begin after the move [m]."""
-    return map_of(move)(np.array(load_card(FOLDER, move.skill).starts))
+    """(S, 3) where the skill's own reproductions begin after the move: the start takes them along [m]."""
+    before, after = ends(move)
+    return np.array(load_card(FOLDER, move.skill).starts) + after[0] - before[0]
 
 
 def changes(gripper: np.ndarray | None) -> list[tuple[int, float]]:
