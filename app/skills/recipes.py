@@ -35,7 +35,11 @@ class Recipe:
     directions of the distance from boundary to boundary through the middle line: twice the mean radius of
     the slice. As a part of the distance from start to goal: how far the middle line bows out at least
     (`bow`), and how far it may lie at most from the one that was taught, turned and scaled from the old
-    start and goal to the new ones (`shape_change`)."""
+    start and goal to the new ones (`shape_change`). For refinement: how far and over which width a
+    line is pulled down (`pull_m`, `press_m`, `width_m`); how deep the corrected demonstration dips at least;
+    how much ends and other demonstrations move at most; and by which part of its share the middle line and a
+    run beside it may miss it (`of_the_mean`). For a rule: how far behind it a run may be (`obeys_m`), and how
+    many times its former largest step a run may make (`leap`)."""
     new_goals: tuple[tuple[float, float, float], ...] = ()
     """Where the goal is moved to, one after the other [m]."""
     new_starts: tuple[tuple[float, float, float], ...] = ()
@@ -133,4 +137,40 @@ PICK: Final = Recipe(
     new_starts=((0.46, -0.22, 0.06), (0.24, -0.46, 0.06), (0.46, -0.44, 0.06), (0.24, -0.24, 0.16)),
 )
 
-RECIPES: Final = (REACHING, NEEDLE, CURVED, PICK)
+_ACROSS: Final = (-0.36, -0.44, 0.30)
+
+DIP: Final = Recipe(
+    name="the_dip",
+    title="The dip",
+    about="This robot was shown three times how to cross the table. Pull a red line down in its middle, and "
+    "the tube dips with it, by a third.",
+    plan=Plan(
+        waypoints=((0.42, -0.30, 0.30), (0.24, -0.48, 0.32), (-0.02, -0.56, 0.32), _ACROSS),
+        spread=((0.0, 0.045), (0.5, 0.055), (1.0, 0.018)),
+        seed=10,
+        demonstrations=3,
+    ),
+    section="closed_spline",
+    goal=_ACROSS,
+    starts=((0.5, 3.14),),
+    law={"pull_m": 0.09, "width_m": 0.25, "dip_m": 0.05, "others_m": 0.001, "of_the_mean": 0.1},
+)
+
+LID: Final = Recipe(
+    name="the_lid",
+    title="The lid",
+    about="Two runs cross the table, one high and one low. Press the high one down: that is a rule "
+    "(constraint) for all runs, and the low one does not notice.",
+    plan=Plan(
+        waypoints=((0.42, -0.30, 0.30), (0.24, -0.48, 0.32), (-0.02, -0.56, 0.32), _ACROSS),
+        spread=((0.0, 0.085), (0.6, 0.09), (1.0, 0.02)),
+        seed=11,
+        demonstrations=5,
+    ),
+    section="closed_spline",
+    goal=_ACROSS,
+    starts=((0.75, 4.6), (0.75, 1.47)),
+    law={"press_m": 0.07, "width_m": 0.25, "obeys_m": 1e-9, "leap": 3.0},
+)
+
+RECIPES: Final = (REACHING, NEEDLE, CURVED, PICK, DIP, LID)
