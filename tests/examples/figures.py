@@ -17,6 +17,7 @@ mpl.use("Agg")
 import matplotlib.pyplot as plt
 
 DEMONSTRATION, DIRECTRIX, TUBE, REPRODUCTION, GOAL = "#C4161C", "#1F3FA8", "#8E96A6", "#E04BDC", "#F2BA1A"
+REFINED = "#1A9E73"
 INK, PALE = "#3A3F49", "#DDE1E6"
 OUTLINES = 24
 """Slices whose outline is drawn on a tube, so that its shape can be seen."""
@@ -91,6 +92,19 @@ def lines(axes: Any, paths: list[FloatArray], label: str, **style: Any) -> None:
     """Draw paths (K, 3) or (K, 2), with one entry in the legend."""
     for j, path in enumerate(paths):
         axes.plot(*path.T, label=label if j == 0 else None, **style)
+
+
+def arrows(axes: Any, places: FloatArray, moves: FloatArray) -> None:
+    """Draw moves (K, 3) as arrows from places (K, 3); those too short to be seen are left out."""
+    seen = np.linalg.norm(moves, axis=1) > 0.004
+    axes.quiver(*places[seen].T, *moves[seen].T, color=REFINED, linewidth=0.9, arrow_length_ratio=0.25)
+
+
+def let_out(axes: Any) -> None:
+    """Let a long, flat tube leave the square in which axes of three dimensions draw."""
+    for artist in axes.get_children():
+        artist.set_clip_on(False)
+        artist.set_in_layout(False)
 
 
 def scale_bar(axes: Any, length: float, *, part: float = 1.0) -> None:

@@ -20,7 +20,7 @@ ROOT = HERE.parents[1]
 DOCS = ROOT / "docs"
 NAMES = sorted(path.stem for path in HERE.glob("[0-9]*.py"))
 RED, BLUE, GREY, MAGENTA = (196, 22, 28), (31, 63, 168), (142, 150, 166), (224, 75, 220)
-YELLOW = (242, 186, 26)
+YELLOW, GREEN = (242, 186, 26), (26, 158, 115)
 SHOWN = {
     "01_encode": (RED, BLUE, GREY),
     "02_reproduce": (BLUE, MAGENTA),
@@ -30,6 +30,8 @@ SHOWN = {
     "06_new_goals": (BLUE, MAGENTA, YELLOW),
     "07_new_starts": (BLUE, MAGENTA, YELLOW),
     "08_both_ends": (BLUE, MAGENTA, YELLOW),
+    "09_incremental_refinement": (RED, BLUE, MAGENTA, GREEN),
+    "10_constraint": (MAGENTA, GREEN),
 }
 LARGEST_FIGURE = 150_000
 """Bytes of a figure in the docs."""
@@ -151,6 +153,25 @@ def test_both_ends_are_moved_at_once(run: Runner) -> None:
     for name, tube in found["tubes"].items():
         assert_generalized(tube, found["runs"][name], found["after"][name])
         assert np.linalg.norm(found["after"][name] - found["before"][name], axis=1).min() > 0.1
+
+
+def test_one_corrected_demonstration_of_three_lowers_the_middle_line_by_a_third(run: Runner) -> None:
+    found = run("09_incremental_refinement")
+
+    assert found["sunk"].max() == pytest.approx(0.03, rel=0.1)
+    fallen = (found["runs"][0] - found["runs"][1])[:, :, 2].max(axis=1)
+    assert fallen == pytest.approx([0.03, 0.03], rel=0.1)
+
+
+def test_runs_above_the_lid_obey_and_the_run_below_is_the_same_object(run: Runner) -> None:
+    found = run("10_constraint")
+
+    assert [ruled is free for free, ruled in zip(found["free"], found["obeying"], strict=True)] == [
+        False,
+        False,
+        False,
+        True,
+    ]
 
 
 @pytest.mark.parametrize("name", NAMES)
