@@ -174,7 +174,7 @@ def test_every_demonstration_of_the_curved_reach_ends_at_the_goal() -> None:
         assert np.linalg.norm(end - card.goal) <= card.law["demonstration_end_m"], item.demonstration.name
 
 
-@every_kind
+@pytest.mark.parametrize("section", SECTION_KINDS)
 @everywhere
 def test_the_skills_own_reproductions_begin_inside_stay_inside_and_end_at_the_goal(
     move: Move, section: str
