@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
-from app import attention, edits, gesture, handpull, sentences
+from app import attention, edits, gesture, handpull, judgement, sentences
 from app.actions import Drag
 from app.arm.protocol import Arm
 from app.document import Document, FloatArray, View
@@ -61,6 +61,7 @@ class Desk:
             hand=self.stage.hand,
             playback=self.stage.shown,
             plan=self.stage.plan(self.model),
+            plans=self.stage.plans(self.model),
             dragging=None if self._held is None else self._held.node,
             undo_name=self.store.undo_name,
             redo_name=self.store.redo_name,
@@ -178,10 +179,10 @@ class Desk:
     # --- playback ----------------------------------------------------------------------
 
     def accept_plan(self, plan: Plan) -> None:
-        """Take over a joint path from the worker; says where the arm cannot follow."""
-        self.stage.accept(plan)
-        words = sentences.unreached(plan.path)
-        if words is not None and plan.source is self.model:
+        """Take over what the arm makes of a run; says the worst of what it cannot do."""
+        known = self.stage.accept(plan, self.model)
+        words = judgement.warning(plan, len(self.model.runs))
+        if known and words is not None:
             self.say(words, warning=True)
 
     def choose_run(self, run: int) -> None:
@@ -271,5 +272,5 @@ class Desk:
             if held.ends is None and now - held.followed > PATIENCE:
                 self.stage.driver.pulled(held.pull.advance(now))
             return True
-        moving = self.stage.tick(now, dt, self.model, speed=self.view.speed, loop=self.view.loop)
+        moving = self.stage.tick(now, dt, self.model, self.view)
         return moving or held is not None

@@ -100,6 +100,7 @@ class Document:
     """A built-in skill; its first edit makes a copy."""
 
 
+Pace: TypeAlias = Literal["taught", "fastest"]
 Tab: TypeAlias = Literal["Teach", "Try", "Move", "Fix"]
 
 
@@ -116,7 +117,9 @@ class View:
     gripper_closed: bool = False
     """What the hand does during the next demonstration."""
     speed: float = 1.0
-    """Playback speed as a multiple of the taught one."""
+    """Playback speed; at 1 the arm moves in real time."""
+    pace: Pace = "taught"
+    """As taught, slower where the arm must; or as fast as the arm can."""
     loop: bool = True
     tool: tuple[float, float, float, float] | None = None
     """The tool is held like this while the arm is moved, w x y z; None: free, rather pointing down."""

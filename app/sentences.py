@@ -1,12 +1,6 @@
 """What the desk says to a person: what happened, why, and what to do, in centimetres and seconds."""
 
-import numpy as np
-
-from app.arm.protocol import JointPath
 from app.handpull import Drawn, TakenBack
-
-REACHED = 0.001
-"""The arm plays a sample exactly when it comes this close [m]."""
 
 
 def too_short(drawn: Drawn) -> str:
@@ -33,15 +27,3 @@ def demonstrated(drawn: Drawn, learned_from: int, kept: TakenBack) -> str:
     if learned_from >= 3:
         more = f"The tube holds {learned_from} now."
     return f"That was a demonstration of {drawn.times[-1]:.1f} s. {more}"
-
-
-def unreached(path: JointPath) -> str | None:
-    """Say where the arm cannot follow a run; None when it can."""
-    missed = path.errors > REACHED
-    if not np.any(missed):
-        return None
-    share, worst = 100.0 * float(np.mean(missed)), 100.0 * float(np.max(path.errors))
-    return (
-        f"The arm cannot reach {share:.0f} % of this run; there it is up to {worst:.1f} cm off. Move the "
-        "start or the goal nearer to the arm."
-    )

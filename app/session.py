@@ -19,18 +19,20 @@ import viser
 from app import viewers
 from app.actions import ViewName
 from app.actor import TICK, Actor, Latest
+from app.arm.conditions import Conditions
 from app.arm.protocol import Arm
 from app.desk import Desk
 from app.document import Document, FloatArray
 from app.files import inspect_bytes
 from app.library import Library, LibraryError
 from app.model import Model
+from app.planning import plan_run
 from app.scene import VIEWS
 from app.seat import Seat
 from app.shapes import Shapes, same_but_for_section, shapes_of
 from app.store import Plan, State
 from app.viewers import Viewer
-from gc_core import GcError
+from gc_core import GcError, Reproduction
 
 FORGOTTEN_AFTER: Final = 60.0
 """A session without a tab is closed after this time [s]."""
@@ -71,7 +73,7 @@ class Session:
             raise
         self._viewers: dict[int, Viewer] = {}
         self._works: int | None = None
-        self._planned: tuple[object, int] | None = None
+        self._asked: tuple[Reproduction, Conditions] | None = None
         self._shaped: Model | None = None
         self._shapes: Shapes | None = None
         self._logged = ""
@@ -243,21 +245,30 @@ class Session:
         self._shapes = shapes
 
     def _plan(self, state: State) -> None:
-        model, run = state.model, state.playback.run
-        if state.dragging is not None or not model.runs or self._planned == (model, run):
+        """Have a run checked that was not yet, one after the other; the one that is played comes first."""
+        model, stage = state.model, self._desk.stage
+        waiting = () if state.dragging is not None else stage.unplanned(model)
+        if not waiting:
             return
-        self._planned = (model, run)
-        positions = model.runs[run].reproduction.positions
-        near, conditions = self._desk.stage.begins_near(), self._desk.stage.arm.conditions
+        run, conditions, near = waiting[0], stage.arm.conditions, stage.begins_near()
+        asked = (model.runs[run].reproduction, conditions)
+        if self._asked == asked:
+            return
+        self._asked = asked
 
         def job() -> Plan:
             arm = self.workshop.make_arm()
             try:
-                return Plan(model, run, arm.under(conditions).follow(positions, near))
+                return plan_run(arm, model, run, conditions, near)
             finally:
                 arm.close()
 
-        self._plans.submit(job, self._desk.accept_plan)
+        self._plans.submit(job, lambda plan: self._planned(plan, asked))
+
+    def _planned(self, plan: Plan, asked: tuple[Reproduction, Conditions]) -> None:
+        if self._asked == asked:  # a job that failed stays asked for: it would fail again
+            self._asked = None
+        self._desk.accept_plan(plan)
 
     def _save(self) -> None:
         document = self._desk.store.document

@@ -6,6 +6,7 @@ from typing import Final
 from app import player
 from app.arm.conditions import Conditions
 from app.arm.protocol import Arm, FloatArray
+from app.document import View
 from app.driver import Driver, Lead, lead_at
 from app.model import Model
 from app.store import Hand, Plan, Playback
@@ -22,7 +23,9 @@ class Stage:
         """Heeds what stands around and how the tool is held."""
         self.driver = Driver(arm)
         self.playback = Playback(playing=True)
-        self._plan: Plan | None = None
+        self._plans: tuple[Plan, ...] = ()
+        self._planned_for: tuple[Model | None, Conditions] = None, arm.conditions
+        self._began: FloatArray | None = None
 
     @property
     def hand(self) -> Hand:
@@ -48,18 +51,43 @@ class Stage:
         self.playback = player.with_duration(replace(self.playback, run=run), duration)
 
     def plan(self, model: Model) -> Plan | None:
-        """Give the joint path of the run that is played, where it is known."""
-        plan = self._plan
-        fits = plan is not None and plan.source is model and plan.run == self.playback.run
-        return plan if fits else None
+        """Give what the arm makes of the run that is played, where it is known."""
+        return next((plan for plan in self.plans(model) if plan.run == self.playback.run), None)
 
-    def accept(self, plan: Plan) -> None:
-        """Take over a joint path from the worker."""
-        self._plan = plan
+    def plans(self, model: Model) -> tuple[Plan, ...]:
+        """Give what the arm makes of the runs, as far as it is known and still true."""
+        if model is not self._planned_for[0] or self.arm.conditions is not self._planned_for[1]:
+            self._planned_for = model, self.arm.conditions
+            self._plans = tuple(plan for plan in self._plans if self._holds(plan, model))
+        return self._plans
+
+    def unplanned(self, model: Model) -> tuple[int, ...]:
+        """Number the runs that wait for a plan: first the one that is played."""
+        known = {plan.run for plan in self.plans(model)}
+        missing = [run for run in range(len(model.runs)) if run not in known]
+        return tuple(sorted(missing, key=lambda run: run != self.playback.run))
+
+    def accept(self, plan: Plan, model: Model) -> bool:
+        """Take over a plan from the worker; returns whether it is still true."""
+        if not self._holds(plan, model):
+            return False
+        others = [other for other in self.plans(model) if other.run != plan.run]
+        self._plans = tuple(sorted([*others, plan], key=lambda each: each.run))
+        if plan.run == self.playback.run:
+            self._began = plan.path.joints[0]
+        return True
+
+    def _holds(self, plan: Plan, model: Model) -> bool:
+        """Whether a plan is about the same run under the same conditions, whatever else was changed."""
+        if plan.run >= len(model.runs) or plan.conditions != self.arm.conditions:
+            return False
+        return (
+            plan.reproduction is model.runs[plan.run].reproduction and plan.source.cylinder is model.cylinder
+        )
 
     def begins_near(self) -> FloatArray:
         """(J,) joints near which the next joint path should begin [rad]."""
-        return self.hand.joints if self._plan is None else self._plan.path.joints[0]
+        return self.hand.joints if self._began is None else self._began
 
     def play(self, playing: bool) -> None:
         """Start or pause."""
@@ -82,9 +110,11 @@ class Stage:
         self.fit(model)
         self.driver.lead()
 
-    def tick(self, now: float, dt: float, model: Model, *, speed: float, loop: bool) -> bool:
+    def tick(self, now: float, dt: float, model: Model, view: View) -> bool:
         """Move on what moves by itself; returns whether something still moves."""
-        self.playback = player.advance(self.playback, dt, speed=speed, loop=loop)
+        plan = self.plan(model)
+        pace = None if plan is None else player.pace_of(plan, view.pace)
+        self.playback = player.advance(self.playback, dt, speed=view.speed, loop=view.loop, pace=pace)
         moving = self.driver.tick(now, dt, self._lead(model))
         return moving or self.playback.playing
 

@@ -9,27 +9,58 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from app import edits
+from app.arm.conditions import Conditions
 from app.arm.protocol import JointPath, Shortfall
+from app.arm.verdict import Verdict
 from app.document import Document, FloatArray, View
 from app.files import Frame, Unit
 from app.model import Model
 from app.shapes import Shapes
+from gc_core import Reproduction
 
 MERGE_WITHIN: Final = 1.0
 """Edits of one key closer together than this are one undo step [s]."""
 DEEPEST: Final = 300
 """Undo steps that are kept."""
+LONGER: Final = 1.1
+"""An arm that needs more than this times the taught duration is said to be slower."""
 
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """How the arm plays one reproduction; valid only for the model it was made for."""
+    """What the arm makes of one reproduction, under the conditions it was made for."""
 
     source: Model
     run: int
     """Which reproduction."""
-    path: JointPath
-    """Joints at the samples of the reproduction."""
+    conditions: Conditions
+    """What the arm heeded."""
+    verdict: Verdict
+    """Its joints, how fast and how clear it is, and what it cannot do."""
+    clock: FloatArray
+    """(K,) when the arm passes each sample as taught, slower where it must [s]; increasing from 0."""
+    ratios: FloatArray
+    """(K,) where the hand really is in the tube: 0 on the middle line, 1 on the edge."""
+
+    @property
+    def path(self) -> JointPath:
+        """Joints at the samples of the reproduction."""
+        return self.verdict.path
+
+    @property
+    def reproduction(self) -> Reproduction:
+        """The run that was planned."""
+        return self.source.runs[self.run].reproduction
+
+    @property
+    def taught(self) -> float:
+        """How long the run takes as taught [s]."""
+        return float(self.reproduction.times[-1])
+
+    @property
+    def slowed(self) -> bool:
+        """Whether the arm needs clearly longer than it was taught."""
+        return float(self.clock[-1]) > LONGER * self.taught
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,6 +124,9 @@ class State:
     hand: Hand
     playback: Playback
     plan: Plan | None = None
+    """Of the run that is played, once the worker has made it."""
+    plans: tuple[Plan, ...] = ()
+    """Of all runs of the model that the worker has come to."""
     dragging: str | None = None
     """Scene name of what is dragged."""
     undo_name: str | None = None

@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from app.arm.postures import seeds
 from app.arm.programs import SAFE_DISTANCE, Wrist
-from app.arm.protocol import FloatArray, JointPath
+from app.arm.protocol import Clearance, FloatArray, JointPath
 from app.arm.solver import Solver
 
 _N_COARSE = 40
@@ -27,6 +27,10 @@ _REACHED = 1e-3
 """A position nearer than this is reached [m]."""
 _SMOOTH = 0.5
 """Largest joint step between two coarse positions that needs no second thought [rad]."""
+_LEAP = 1.5
+"""A larger one is another posture in all likelihood [rad]."""
+_UNPLAYABLE = 200.0
+"""What each radian beyond costs: no arm can leap, while what stands in its way can be moved."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,18 +42,18 @@ class _Candidate:
     """Sum of what the tool missed the positions by, beyond `_REACHED` [m]."""
     jump: float
     """Largest joint step [rad]."""
-    room: float
-    """Smallest distance of the arm from itself and from obstacles [m]."""
+    clearance: Clearance
 
     @property
     def good(self) -> bool:
         """Whether no other posture needs to be tried."""
-        return self.missed == 0.0 and self.jump < _SMOOTH and self.room >= SAFE_DISTANCE
+        return self.missed == 0.0 and self.jump < _SMOOTH and _tightness(self.clearance, SAFE_DISTANCE) == 0.0
 
     @property
     def cost(self) -> float:
-        """Reach counts most, then to touch nothing, then smoothness."""
-        return 100.0 * self.missed + self.jump + 1000.0 * max(0.0, SAFE_DISTANCE - self.room)
+        """Reach counts most, then to touch nothing without leaping, then smoothness."""
+        leap = _UNPLAYABLE * max(0.0, self.jump - _LEAP)
+        return 100.0 * self.missed + leap + self.jump + _tightness(self.clearance, SAFE_DISTANCE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,9 +123,19 @@ def find_path(solver: Solver, course: Course, *, start: FloatArray | None, home:
 
 
 def _cost(solver: Solver, path: JointPath) -> float:
-    """Weigh touching against jumping: 1 mm too near is as bad as a step of 1 rad."""
-    room = solver.room(path.joints[_spread(len(path.joints), _N_CHECKED)])
-    return 1000.0 * max(0.0, _GOOD_ROOM - room) + float(np.abs(np.diff(path.joints, axis=0)).max(initial=0.0))
+    """Weigh touching against jumping: 1 mm too near is as bad as a step of 1 rad, a leap worse than both."""
+    clearance = solver.clearance(path.joints[_spread(len(path.joints), _N_CHECKED)])
+    jump = float(np.abs(np.diff(path.joints, axis=0)).max(initial=0.0))
+    return _tightness(clearance, _GOOD_ROOM) + jump + _UNPLAYABLE * max(0.0, jump - _SMOOTH)
+
+
+def _tightness(clearance: Clearance, wanted: float) -> float:
+    """Give how many millimetres nearer than wanted the arm comes to itself and to what stands around.
+
+    One is not bought with the other: the two are added up.
+    """
+    nearest = np.array([clearance.itself.min(), clearance.obstacles.min()])
+    return 1000.0 * float(np.maximum(0.0, wanted - nearest).sum())
 
 
 def _best(
@@ -146,7 +160,7 @@ def _try(solver: Solver, coarse: Course, seed: FloatArray, wrist: Wrist) -> _Can
         joints=path.joints[0],
         missed=float(np.maximum(path.errors - _REACHED, 0.0).sum()),
         jump=float(steps.max(initial=0.0)),
-        room=solver.room(path.joints),
+        clearance=solver.clearance(path.joints),
     )
 
 

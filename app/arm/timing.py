@@ -114,6 +114,25 @@ def retime(joints: npt.ArrayLike, speeds: FloatArray, accelerations: FloatArray)
     return _within(timed, speeds, accelerations)
 
 
+def no_faster_than(taught: FloatArray, fastest: FloatArray) -> FloatArray:
+    """Find when to pass each configuration at the pace it was taught at, slower where the arm must.
+
+    Parameters
+    ----------
+    taught : (K,) array
+        When each is wanted [s]; increasing.
+    fastest : (K,) array
+        When each can be passed at the earliest; not decreasing [s]: `TimedPath.times`.
+
+    Returns
+    -------
+    (K,) array
+        From 0; increasing [s]. At each place the lower of the two speeds: the arm begins and ends at rest,
+        and is never faster than it can. How hard it is accelerated is limited where it is slowed down.
+    """
+    return np.concatenate([[0.0], np.cumsum(np.maximum(np.diff(taught), np.diff(fastest)))])
+
+
 def _standing(path: FloatArray) -> TimedPath:
     """Give the path of an arm that does not move, one thousandth of a second long."""
     curve: Curve = _interpolate.BSpline(np.array([0.0, 0.0, 1.0, 1.0]), np.stack([path[0], path[0]]), 1)

@@ -2,28 +2,40 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 
-from app.arm.protocol import STUCK, Arm, FloatArray, JointPath
+from app.arm.physics_report import Nearest
+from app.arm.physics_words import length_in_words, part_in_words, thing_in_words
+from app.arm.protocol import STUCK, Arm, Clearance, FloatArray, JointPath
 from app.arm.timing import TimedPath, retime
 
 REACHED = 1e-3
 """A sample is reached when the tool comes this near [m]."""
 LARGEST_STEP = 0.5
 """A larger step between two samples is another posture, not a motion [rad]."""
+_PAUSE = 0.03
+"""Two stretches with less than this part of the path between them are told as one."""
+
+Kind = Literal["reach", "leap", "itself", "thing", "speed"]
+"""Out of reach; another posture on the way; touching itself; touching a thing; shown too fast."""
 
 
 @dataclass(frozen=True)
 class Problem:
     """A part of a path that the arm cannot do as it is, in words."""
 
+    kind: Kind
     first: int
     """Number of its first sample."""
     last: int
     """Number of its last sample."""
+    worst: int
+    """Number of the sample where it is worst."""
     what: str
     """What is wrong there, and by how much; no full stop."""
     remedy: str
@@ -45,9 +57,15 @@ class Verdict:
     """Largest speed of a joint over its limit, at the times of the path."""
     self_distance: float
     """Smallest distance of the arm from itself [m]; inf where it cannot touch itself."""
-    clearance: float
-    """Smallest distance of the whole arm from obstacles [m]; inf without any."""
+    nearest: Nearest | None
+    """Where the whole arm comes nearest to an obstacle; None without any."""
     problems: tuple[Problem, ...]
+    """In the order of what matters more: reach, touching, leaping, speed; then in time."""
+
+    @property
+    def clearance(self) -> float:
+        """Smallest distance of the whole arm from obstacles [m]; inf without any."""
+        return np.inf if self.nearest is None else self.nearest.distance
 
 
 def judge(arm: Arm, positions: FloatArray, times: FloatArray, start: FloatArray | None = None) -> Verdict:
@@ -76,12 +94,14 @@ def judge(arm: Arm, positions: FloatArray, times: FloatArray, start: FloatArray 
     )
     clearance = arm.clearance(path.joints)
     timed = retime(path.joints, arm.velocity_limits, arm.acceleration_limits)
+    missed = _missed(arm, positions, path)
+    leaps = steps.max(axis=1) > LARGEST_STEP if len(steps) else np.zeros(0, dtype=np.bool_)
     problems = [
-        *_missed(arm, positions, path),
-        *_jumps(steps.max(axis=1) if len(steps) else np.zeros(0)),
-        *_touching(clearance.itself, ["its own arm"] * len(positions), "the arm touches itself"),
-        *_touching(clearance.obstacles, clearance.names, "the arm touches"),
-        *_hasty(ratios, timed.duration),
+        *missed,
+        *_touching_things(clearance),
+        *_touching_itself(clearance),
+        *_leaping(np.where(leaps, steps.max(axis=1, initial=0.0), 0.0), missed),
+        *_hasty(np.where(leaps, 0.0, ratios), timed.duration),
     ]
     return Verdict(
         path=path,
@@ -90,16 +110,24 @@ def judge(arm: Arm, positions: FloatArray, times: FloatArray, start: FloatArray 
         largest_step=float(steps.max(initial=0.0)),
         speed_ratio=float(ratios.max(initial=0.0)),
         self_distance=float(clearance.itself.min()),
-        clearance=float(clearance.obstacles.min()),
+        nearest=_nearest(clearance),
         problems=tuple(problems),
     )
+
+
+def _nearest(clearance: Clearance) -> Nearest | None:
+    index = int(np.argmin(clearance.obstacles))
+    distance = float(clearance.obstacles[index])
+    if np.isinf(distance):
+        return None
+    return Nearest(distance, index, clearance.links[index], clearance.names[index])
 
 
 def _missed(arm: Arm, positions: FloatArray, path: JointPath) -> list[Problem]:
     found: list[Problem] = []
     for first, last in _spans(path.errors > REACHED):
         worst = first + int(np.argmax(path.errors[first : last + 1]))
-        off = 1000.0 * path.errors[worst]
+        off = length_in_words(float(path.errors[worst]))
         short = arm.shortfall(path.joints[worst], positions[worst])
         reason = "not quite within reach" if short is None else short.reason
         remedy = "Move this part of the motion nearer to the arm, or the whole of it."
@@ -110,55 +138,67 @@ def _missed(arm: Arm, positions: FloatArray, path: JointPath) -> list[Problem]:
             remedy = "Raise this part of the motion."
         elif "in the way" in reason or "base" in reason:
             remedy = "Lead this part of the motion farther around it."
-        found.append(Problem(first, last, f"the tool stays up to {off:.0f} mm away: {reason}", remedy))
+        what = f"the hand stays up to {off} away: {reason}"
+        found.append(Problem("reach", first, last, worst, what, remedy))
     return found
 
 
-def _jumps(steps: FloatArray) -> list[Problem]:
-    return [
-        Problem(
-            first,
-            last + 1,
-            f"a joint turns by {steps[first : last + 1].max():.1f} rad from one sample to the next",
-            "Lead the motion farther away from the base or from the end of the reach.",
-        )
-        for first, last in _spans(steps > LARGEST_STEP)
-    ]
-
-
-def _touching(distances: FloatArray, names: list[str] | tuple[str, ...], what: str) -> list[Problem]:
+def _touching_things(clearance: Clearance) -> list[Problem]:
     found: list[Problem] = []
-    for first, last in _spans(distances <= 0.0):
-        worst = first + int(np.argmin(distances[first : last + 1]))
-        whom = "" if what.endswith("itself") else f" {names[worst]}"
-        found.append(
-            Problem(
-                first,
-                last,
-                f"{what}{whom}, {-1000.0 * distances[worst]:.0f} mm deep",
-                "Lead this part of the motion farther around it.",
-            )
-        )
+    inside = clearance.obstacles <= 0.0
+    for name in sorted({name for name, there in zip(clearance.names, inside, strict=True) if there}):
+        of_this = inside & (np.array(clearance.names) == name)
+        for first, last in _spans(of_this):
+            depths = np.where(of_this, -clearance.obstacles, 0.0)[first : last + 1]
+            worst = first + int(np.argmax(depths))
+            part, thing = part_in_words(clearance.links[worst]), thing_in_words(name)
+            what = f"the {part} would be up to {length_in_words(float(depths.max()))} deep in {thing}"
+            remedy = f"Move {thing}, or lead this part of the motion farther around it."
+            found.append(Problem("thing", first, last, worst, what, remedy))
+    return sorted(found, key=lambda problem: problem.first)
+
+
+def _touching_itself(clearance: Clearance) -> list[Problem]:
+    found: list[Problem] = []
+    for first, last in _spans(clearance.itself <= 0.0):
+        worst = first + int(np.argmin(clearance.itself[first : last + 1]))
+        depth = length_in_words(-float(clearance.itself[worst]))
+        what = f"the arm would be up to {depth} deep in itself"
+        remedy = "Lead this part of the motion farther away from the base."
+        found.append(Problem("itself", first, last, worst, what, remedy))
+    return found
+
+
+def _leaping(steps: FloatArray, missed: Sequence[Problem]) -> list[Problem]:
+    """Say where a joint would leap, unless it is told already that the hand does not get through there."""
+    found: list[Problem] = []
+    for first, last in _spans(steps > 0.0):
+        if any(problem.first <= last + 1 and first <= problem.last for problem in missed):
+            continue
+        worst = first + int(np.argmax(steps[first : last + 1]))
+        what = f"a joint would have to leap by {np.degrees(steps[worst]):.0f} degrees to another posture"
+        remedy = "Lead the motion farther away from the base or from the end of the reach."
+        found.append(Problem("leap", first, last + 1, worst, what, remedy))
     return found
 
 
 def _hasty(ratios: FloatArray, duration: float) -> list[Problem]:
     """Say where joints would be too fast; one remedy serves all places."""
-    spans = _spans(ratios > 1.0)
-    if not spans:
+    fast = np.flatnonzero(ratios > 1.0)
+    if not len(fast):
         return []
-    most = float(ratios.max())
-    return [
-        Problem(
-            spans[0][0],
-            spans[-1][1] + 1,
-            f"a joint would have to be {most:.1f} times as fast as it can",
-            f"Show it more slowly there; timed anew, the arm does the whole motion in {duration:.1f} s.",
-        )
-    ]
+    worst = int(np.argmax(ratios))
+    what = f"a joint would have to be {ratios[worst]:.1f} times as fast as it can"
+    remedy = f"Show it more slowly there; timed anew, the arm does the whole motion in {duration:.1f} s."
+    return [Problem("speed", int(fast[0]), int(fast[-1]) + 1, worst, what, remedy)]
 
 
-def _spans(wrong: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> list[tuple[int, int]]:
-    """Give the first and last index of every run of true values."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], wrong, [False]]).astype(np.int8)))
-    return [(int(a), int(b) - 1) for a, b in list(pairwise(edges))[::2]]
+def _spans(wrong: npt.NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Give the first and last index of every run of true values; short pauses do not part them."""
+    found: list[tuple[int, int]] = []
+    for index in np.flatnonzero(wrong).tolist():
+        if found and index - found[-1][1] <= 1 + int(_PAUSE * len(wrong)):
+            found[-1] = found[-1][0], index
+        else:
+            found.append((index, index))
+    return found

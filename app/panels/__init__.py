@@ -27,6 +27,7 @@ from app.panels.starts import StartsPanel
 from app.panels.status import StatusPanel
 from app.panels.timeline import TimelinePanel
 from app.panels.tries import TriesPanel
+from app.panels.verdict import VerdictPanel
 from app.store import State
 
 MAIN_WIDTH: Final = 320
@@ -86,7 +87,7 @@ def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]
             EncodingPanel(gui, actions),
         )
     with tabs.add_tab("Try", viser.Icon.PLAYER_PLAY):
-        starts = StartsPanel(gui, actions)
+        tries: tuple[Panel, ...] = (StartsPanel(gui, actions), VerdictPanel(gui, actions))
     with tabs.add_tab("Move", viser.Icon.MAP_PIN):
         move: tuple[Panel, ...] = (
             LandmarksPanel(gui, actions),
@@ -96,7 +97,7 @@ def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]
         )
     with tabs.add_tab("Fix", viser.Icon.TOOL):
         rules = RulesPanel(gui, actions)
-    return (*header, *teach, starts, *move, rules)
+    return (*header, *teach, *tries, *move, rules)
 
 
 def _side(gui: viser.GuiApi, actions: Actions) -> tuple[Panel, ...]:

@@ -1,13 +1,16 @@
 """The timeline: play, scrub, speed, loop, and which run is played."""
 
+from functools import partial
 from typing import Final
 
 import viser
 
+from app import judgement
 from app.actions import VIEW_NAMES, Actions
-from app.binding import Binding, assign, on_choice
+from app.arm.verdict import Problem
+from app.binding import Binding, Rows, assign, on_choice, on_press
 from app.player import SPEEDS
-from app.store import State
+from app.store import Plan, State
 
 SPEED_WORDS: Final = ("¼×", "½×", "1×", "2×")
 PLAY, PAUSE = "Play", "Pause"
@@ -16,6 +19,10 @@ LOOP: Final = "Loop"
 STEP: Final = 0.01
 """Of the playhead [s]."""
 CHOSEN: Final = "✓ "
+AMBER: Final = (180, 83, 9)
+"""White text keeps 4.5:1 on it."""
+MOST_PROBLEMS: Final = 3
+"""More are told in Try."""
 
 
 class TimelinePanel:
@@ -41,6 +48,7 @@ class TimelinePanel:
             "Run", ("1",), visible=False, hint="Which run (reproduction) the arm plays."
         )
         on_choice(self._runs, actions.choose_run)
+        self._problems = Rows(gui.add_folder(None), partial(ProblemRow, gui, actions))
         views = gui.add_button_group("Look from", VIEW_NAMES)
         on_choice(views, lambda place: actions.see_from(VIEW_NAMES[place]))
 
@@ -64,6 +72,15 @@ class TimelinePanel:
         if runs > 1:
             assign(self._runs, options=_marked(tuple(str(i + 1) for i in range(runs)), playback.run))
 
+        self._draw_problems(state)
+
+    def _draw_problems(self, state: State) -> None:
+        plan = state.plan
+        found = () if plan is None else judgement.problems(plan)[:MOST_PROBLEMS]
+        for row, problem in zip(self._problems.fit(len(found)), found, strict=True):
+            if plan is not None:
+                row.draw(plan, problem)
+
     def toggle(self) -> None:
         """Play or pause, whatever is not the case."""
         if self._state is not None:
@@ -76,6 +93,29 @@ class TimelinePanel:
             self._actions.look(speed=SPEEDS[place - 1])
         elif self._state is not None:
             self._actions.look(loop=not self._state.view.loop)
+
+
+class ProblemRow:
+    """What the arm cannot do and when; a press moves the playhead there."""
+
+    def __init__(self, gui: viser.GuiApi, actions: Actions, index: int) -> None:
+        del index
+        self._time = 0.0
+        self._button = gui.add_button("", color=AMBER, hint="Go to where it is worst.")
+        on_press(self._button, lambda: self._go(actions))
+
+    def show(self, visible: bool) -> None:
+        """Show or hide it."""
+        assign(self._button, visible=visible)
+
+    def draw(self, plan: Plan, problem: Problem) -> None:
+        """Say it."""
+        self._time = judgement.worst_at(plan, problem)
+        assign(self._button, label=f"{judgement.when(plan, problem)}: {problem.what}")
+
+    def _go(self, actions: Actions) -> None:
+        actions.play(False)
+        actions.seek(self._time)
 
 
 def _options(playing: bool, speed: float, loop: bool) -> tuple[str, ...]:

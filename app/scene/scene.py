@@ -13,6 +13,7 @@ from app.scene.cylinder import Directrix, FormerTube, Section, Tube
 from app.scene.demonstrations import Demonstrations
 from app.scene.drop import DropLine
 from app.scene.hand import HandBall, Recording, Shortage
+from app.scene.hatching import Hatching
 from app.scene.landmarks import Landmarks
 from app.scene.placing import Placing
 from app.scene.pulls import checked_point
@@ -58,6 +59,7 @@ class Scene:
             Section(api),
             Demonstrations(api, actions, clock),
             Reproductions(api, actions, clock),
+            Hatching(api),
             Starts(api, actions, clock, self._eye),
             Landmarks(api, actions, clock, self._eye),
             Recording(api),

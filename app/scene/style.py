@@ -38,6 +38,8 @@ FORMER_OPACITY: Final = 0.12
 THIN: Final = 2.0
 THICK: Final = 4.0
 DOUBLE: Final = 8.0
+HATCHED: Final = 11.0
+"""Wider than every line that it may lie over."""
 
 HAND_RADIUS: Final = 0.025
 START_RADIUS: Final = 0.016

@@ -11,6 +11,8 @@ from app.arm import PlanarArm
 from app.desk import Desk
 from app.document import Document, FloatArray, Place, Rule, Settings, Shown, View
 from app.model import Model
+from app.planning import plan_run
+from app.store import Plan
 from gc_core import Constraint, Demonstration
 
 EVENT = 0.05
@@ -146,6 +148,12 @@ def place_of(node: str, model: Model, hand: FloatArray) -> FloatArray:
 def desk_of(document: Document | None = None) -> Desk:
     """A desk with the tiny arm."""
     return Desk(taught() if document is None else document, PlanarArm())
+
+
+def planned(desk: Desk, run: int = 0) -> Plan:
+    """What the desk's worker would make of a run now."""
+    arm = desk.stage.arm
+    return plan_run(arm, desk.model, run, arm.conditions, arm.home)
 
 
 WIDTH = View().pull_width

@@ -14,9 +14,8 @@ from app.document import Document, Place
 from app.edits import EditError
 from app.files import inspect_bytes
 from app.player import REST
-from app.store import Plan
 from gc_core import same_content
-from tests.app.makers import FIRST_START, Mouse, desk_of, taught
+from tests.app.makers import FIRST_START, Mouse, desk_of, planned, taught
 
 BY = (0.04, -0.03, 0.05)
 THINGS = ("/start/0", "/landmarks/goal", "/landmarks/start", "/demonstrations/1", "/reproductions/0")
@@ -278,8 +277,7 @@ def test_while_it_plays_the_arm_follows_the_run(desk: Desk, mouse: Mouse) -> Non
 
 
 def test_a_joint_path_leads_the_arm_exactly(desk: Desk, mouse: Mouse) -> None:
-    positions = desk.model.runs[0].reproduction.positions
-    desk.accept_plan(Plan(desk.model, 0, desk_of().stage.arm.follow(positions)))
+    desk.accept_plan(planned(desk))
     desk.stage.seek(1.0)
     mouse.wait(2.0)
 
@@ -289,8 +287,7 @@ def test_a_joint_path_leads_the_arm_exactly(desk: Desk, mouse: Mouse) -> None:
 
 
 def test_a_plan_of_a_former_model_is_not_shown(desk: Desk, mouse: Mouse) -> None:
-    positions = desk.model.runs[0].reproduction.positions
-    desk.accept_plan(Plan(desk.model, 0, desk_of().stage.arm.follow(positions)))
+    desk.accept_plan(planned(desk))
     mouse.pull("/start/0", BY)
 
     assert desk.state().plan is None
@@ -300,12 +297,10 @@ def test_a_run_that_the_arm_cannot_reach_is_said_to_be_out_of_reach() -> None:
     far = replace(taught(), starts=(np.array([2.0, 0.0, 0.5]),))
     desk = desk_of(far)
 
-    desk.accept_plan(
-        Plan(desk.model, 0, desk_of().stage.arm.follow(desk.model.runs[0].reproduction.positions))
-    )
+    desk.accept_plan(planned(desk))
 
     assert desk.warning
-    assert "cannot reach" in desk.message
+    assert "beyond reach" in desk.message
 
 
 def test_after_a_start_was_pulled_its_run_plays_from_the_beginning(desk: Desk, mouse: Mouse) -> None:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from app.arm import FREE, HERE, ArmClosedError, ArmInputError, Conditions, FloatArray, Jaco, urdf
+from app.arm.physics_words import length_in_words
 from app.arm.programs import SAFE_DISTANCE
 from app.arm.shapes import Box, Cylinder, Ring, Shape, Sphere, primitives
 from app.arm.verdict import judge
@@ -123,11 +124,13 @@ def test_a_path_goes_round_an_obstacle_with_the_whole_arm(jaco: Jaco) -> None:
 def test_a_path_through_an_obstacle_is_a_problem_with_name_place_and_depth(jaco: Jaco) -> None:
     positions = np.linspace([0.3, -0.5, 0.1], [-0.3, -0.5, 0.1], 150)
     verdict = judge(jaco.under(Conditions((BOX,))), positions, np.linspace(0.0, 20.0, 150))
-    (problem,) = [each for each in verdict.problems if "the box" in each.what and "touches" in each.what]
+    (problem,) = [each for each in verdict.problems if each.kind == "thing"]
 
     assert verdict.clearance < 0.0
     assert 0 < problem.first < 75 < problem.last < 149
-    assert problem.what == f"the arm touches the box, {-1000 * verdict.clearance:.0f} mm deep"
+    assert verdict.nearest is not None
+    assert (problem.worst, problem.first <= problem.worst <= problem.last) == (verdict.nearest.index, True)
+    assert problem.what.endswith(f"would be up to {length_in_words(-verdict.clearance)} deep in the box")
 
 
 def test_a_locked_tool_keeps_its_orientation_while_the_hand_is_pulled(jaco: Jaco) -> None:
