@@ -8,12 +8,17 @@ import math
 from collections.abc import Sequence
 from typing import Final
 
+import numpy as np
+
 from app.arm.physics_words import clear_of_nearest, inside_tube, length_in_words
 from app.arm.verdict import Problem
 from app.store import Plan
 
 CROWDED: Final = 0.02
 """An arm that is nearer to itself than this is worth a word [m]."""
+
+TURNED: Final = 10.0
+"""A tool that is turned otherwise by more than this is worth a word [degrees]."""
 
 
 def problems(plan: Plan) -> tuple[Problem, ...]:
@@ -60,6 +65,9 @@ def facts(plan: Plan) -> tuple[str, ...]:
         said.append(clear_of_nearest(verdict.nearest, times))
     if math.isfinite(verdict.self_distance) and 0.0 < verdict.self_distance < CROWDED:
         said.append(f"It comes within {length_in_words(verdict.self_distance)} of itself.")
+    turned = 0.0 if verdict.path.turns is None else float(np.degrees(verdict.path.turns.max()))
+    if turned > TURNED:
+        said.append(f"Its tool is turned by up to {turned:.0f} degrees otherwise than shown.")
     return (*said, pace(plan))
 
 

@@ -34,7 +34,7 @@ def plan_run(arm: Arm, model: Model, run: int, conditions: Conditions, near: Flo
     """
     wanted = model.runs[run].reproduction
     arm = arm.under(conditions)
-    verdict = judge(arm, wanted.positions, wanted.times, near)
+    verdict = judge(arm, wanted.positions, wanted.times, near, wanted.orientations)
     ratios = np.zeros(len(wanted.times))
     if model.cylinder is not None:
         ratios = _ratios(arm, model.cylinder, wanted, verdict)

@@ -68,7 +68,13 @@ class Verdict:
         return np.inf if self.nearest is None else self.nearest.distance
 
 
-def judge(arm: Arm, positions: FloatArray, times: FloatArray, start: FloatArray | None = None) -> Verdict:
+def judge(
+    arm: Arm,
+    positions: FloatArray,
+    times: FloatArray,
+    start: FloatArray | None = None,
+    orientations: FloatArray | None = None,
+) -> Verdict:
     """Lead an arm along a path and say how it does.
 
     Parameters
@@ -81,13 +87,15 @@ def judge(arm: Arm, positions: FloatArray, times: FloatArray, start: FloatArray 
         When they are wanted [s]; increasing.
     start : (J,) array, optional
         Joints near which to begin [rad].
+    orientations : (K, 4) array, optional
+        How the tool should be turned, w x y z; instead of a lock.
 
     Raises
     ------
     ArmInputError
         If an argument has the wrong shape or is not finite.
     """
-    path = arm.follow(positions, start)
+    path = arm.follow(positions, start, orientations)
     steps = np.abs(np.diff(path.joints, axis=0))
     ratios = (
         (steps / np.diff(times)[:, None] / arm.velocity_limits).max(axis=1) if len(steps) else np.zeros(0)
