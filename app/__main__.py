@@ -39,6 +39,7 @@ def serve(
     """
     # Only this command needs viser, placo and the database, which take a second to import.
     from app.library import default_url  # noqa: PLC0415
+    from app.pauses import avoid_pauses  # noqa: PLC0415
     from app.server import Options, Server, first_document, stop_signal  # noqa: PLC0415
 
     logging.basicConfig(level=logging.WARNING, format="%(message)s")
@@ -46,6 +47,7 @@ def serve(
     stop = stop_signal()  # first, so that a signal while starting stops cleanly, too
     first = first_document(files)
     server = Server(Options(host, port, library or default_url()), first)
+    avoid_pauses()
     address = f"http://{'127.0.0.1' if host == '0.0.0.0' else host}:{server.port}/"
     print(f"gc-teach is ready: {address}   (Ctrl+C saves and stops)", flush=True)
     if open:

@@ -23,6 +23,7 @@ from gc_core import (
     GeneralizedCylinder,
     Reproduction,
     ThinPlateSpline,
+    coarser,
     constrain,
     contradictions,
     encode,
@@ -78,7 +79,7 @@ class Model:
     coarse: bool = False
     """Encoded for a preview: with `COARSE_ANGLES`, crossing sections not mended."""
     hasty: bool = False
-    """Bent for a preview: crossing sections not mended."""
+    """Bent for a preview: with `COARSE_ANGLES`, crossing sections not mended."""
     problem: str | None = None
     """Why there is no cylinder although something was shown."""
 
@@ -207,7 +208,8 @@ def _generalize(model: Model, former: Model, *, coarse: bool) -> Model:
         model.source.smoothing,
         stiffness=STIFFNESS,
     )
-    cylinder = generalize(model.taught, registration, repair=not coarse)
+    taught = coarser(model.taught, COARSE_ANGLES) if coarse else model.taught
+    cylinder = generalize(taught, registration, repair=not coarse)
     return replace(model, registration=registration, cylinder=cylinder, hasty=coarse)
 
 

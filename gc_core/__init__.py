@@ -4,7 +4,7 @@ from gc_core import metrics
 from gc_core.arrays import same_content
 from gc_core.constraints import Constraint, constrain
 from gc_core.contradictions import Contradiction, contradictions
-from gc_core.cylinder import GeneralizedCylinder
+from gc_core.cylinder import GeneralizedCylinder, coarser
 from gc_core.demonstration import Demonstration
 from gc_core.diagnostics import Diagnostics
 from gc_core.encoding import encode
@@ -56,6 +56,7 @@ __all__ = [
     "UnknownOptionError",
     "ZeroQuaternionError",
     "as_demonstration",
+    "coarser",
     "constrain",
     "contradictions",
     "encode",

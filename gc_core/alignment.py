@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gc_core.arrays import BoolArray, FloatArray, interpolated, remembered
+from gc_core.arrays import BoolArray, FloatArray, interpolated, read_only, remembered
 from gc_core.demonstration import Demonstration, Trimmed, sign_continuous
 from gc_core.errors import OpposedDemonstrationsError, UnknownOptionError
 from gc_core.frames import arc_length, smooth
@@ -77,9 +77,9 @@ def align(
     if align_by not in ALIGNMENTS:
         raise UnknownOptionError("align_by", align_by, ALIGNMENTS)
     grid = np.linspace(0.0, 1.0, 4 * stations + 1)
-    clocks = _clocks(demonstrations, align_by, grid, directrix)
+    clocks, places = _clocks(demonstrations, align_by, grid, directrix)
     if directrix is None:
-        mean = np.mean([_at(d, moments) for d, moments in zip(demonstrations, clocks, strict=True)], axis=0)
+        mean = np.mean(places, axis=0)
         # A place on the directrix stands for a station's length of path, not for one noisy sample.
         mean = smooth(mean, len(mean) // 400)
     else:
@@ -159,21 +159,38 @@ def majority_gripper(
 
 def _clocks(
     demonstrations: tuple[Trimmed, ...], align_by: str, grid: FloatArray, directrix: FloatArray | None
-) -> list[FloatArray]:
-    """Moments (K,) [s] of each demonstration at common parameters (K,)."""
-    if align_by == "time":
-        return [grid * demonstration.times[-1] for demonstration in demonstrations]
-    if align_by == "arc_length":
-        return [_walked(demonstration, grid) for demonstration in demonstrations]
+) -> tuple[tuple[FloatArray, ...], tuple[FloatArray, ...]]:
+    """Moments (K,) [s] and places (K, 3) [m] of each demonstration at common parameters (K,)."""
+    if align_by == "dtw":
+        return _warped(demonstrations, grid, directrix)
+    paced = [_paced(demonstration, align_by, len(grid)) for demonstration in demonstrations]
+    return tuple(moments for moments, _ in paced), tuple(places for _, places in paced)
+
+
+def _warped(
+    demonstrations: tuple[Trimmed, ...], grid: FloatArray, directrix: FloatArray | None
+) -> tuple[tuple[FloatArray, ...], tuple[FloatArray, ...]]:
+    """As `_clocks`, for warped demonstrations."""
     even = np.linspace(0.0, 1.0, WARPED)
-    moments = [_walked(demonstration, even) for demonstration in demonstrations]
-    paths = [_at(d, m) for d, m in zip(demonstrations, moments, strict=True)]
+    paced = [_paced(demonstration, "arc_length", WARPED) for demonstration in demonstrations]
     reference, place = (None, grid) if directrix is None else _evenly(directrix, even, grid)
-    warps = [warp / (WARPED - 1.0) for warp in warped_together(paths, reference)]
-    return [
-        interpolated(interpolated(place, even, warp), even, moment)
-        for warp, moment in zip(warps, moments, strict=True)
-    ]
+    warps = warped_together([places for _, places in paced], reference)
+    clocks = tuple(
+        interpolated(interpolated(place, even, warp / (WARPED - 1.0)), even, moments)
+        for warp, (moments, _) in zip(warps, paced, strict=True)
+    )
+    return clocks, tuple(_at(d, moments) for d, moments in zip(demonstrations, clocks, strict=True))
+
+
+@remembered
+def _paced(demonstration: Trimmed, align_by: str, count: int) -> tuple[FloatArray, FloatArray]:
+    """Moments (K,) [s] and places (K, 3) [m] at even parts of the time or the path of a demonstration.
+
+    Remembered, as `trim` is: while one demonstration is drawn, the others stay as they are.
+    """
+    even = np.linspace(0.0, 1.0, count)
+    moments = even * demonstration.times[-1] if align_by == "time" else _walked(demonstration, even)
+    return read_only(moments), read_only(_at(demonstration, moments))
 
 
 def _evenly(curve: FloatArray, even: FloatArray, grid: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -187,16 +204,10 @@ def _evenly(curve: FloatArray, even: FloatArray, grid: FloatArray) -> tuple[Floa
 
 def _walked(demonstration: Trimmed, part: FloatArray) -> FloatArray:
     """Moments (K,) [s] at which a demonstration has gone through parts (K,) of its path."""
-    gone = _path_gone(demonstration)
-    return interpolated(part * gone[-1], gone, demonstration.times)
-
-
-@remembered
-def _path_gone(demonstration: Trimmed) -> FloatArray:
-    """Length (T,) gone at each sample, strictly increasing [m]; remembered, as `trim` is."""
     # A sensor's noise must not count as path while the hand pauses.
     gone = arc_length(smooth(demonstration.positions, len(demonstration.positions) // 200))
-    return gone + 1e-9 * gone[-1] * np.linspace(0.0, 1.0, len(gone))
+    gone = gone + 1e-9 * gone[-1] * np.linspace(0.0, 1.0, len(gone))
+    return interpolated(part * gone[-1], gone, demonstration.times)
 
 
 def _at(demonstration: Trimmed, moments: FloatArray) -> FloatArray:
@@ -209,7 +220,8 @@ def _sampled_rows(rows: FloatArray, sample: FloatArray) -> FloatArray:
     """Interpolate rows (T, d) at fractional row numbers (K,)."""
     index = np.minimum(sample.astype(np.intp), len(rows) - 2)
     part = (sample - index)[:, None]
-    return rows[index] * (1.0 - part) + rows[index + 1] * part
+    # np.take copies rows five times as quickly as an index in brackets.
+    return np.take(rows, index, axis=0) * (1.0 - part) + np.take(rows, index + 1, axis=0) * part
 
 
 def _turned(quaternions: FloatArray, sample: FloatArray) -> FloatArray:

@@ -72,6 +72,16 @@ def interpolated(at: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
     return np.asarray(np.interp(at, x, y), dtype=np.float64)
 
 
+def following(values: NDArray[Scalar]) -> NDArray[Scalar]:
+    """Values (N, P, ...) of the following place on each closed line; several times as quick as np.roll."""
+    return np.concatenate((values[:, 1:], values[:, :1]), axis=1)
+
+
+def preceding(values: NDArray[Scalar]) -> NDArray[Scalar]:
+    """Values (N, P, ...) of the place before on each closed line."""
+    return np.concatenate((values[:, -1:], values[:, :-1]), axis=1)
+
+
 def fading(part: FloatArray) -> FloatArray:
     """Fall from 1 at part 0 to 0 at part 1, with level ends."""
     return (1.0 - part) ** 2 * (1.0 + 2.0 * part)

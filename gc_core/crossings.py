@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gc_core.alignment import Alignment
-from gc_core.arrays import BoolArray, FloatArray, IntArray, interpolated
+from gc_core.arrays import BoolArray, FloatArray, IntArray, interpolated, read_only, remembered
 from gc_core.demonstration import Trimmed
 from gc_core.frames import arc_length
 
@@ -68,12 +68,14 @@ def effective_points(lines: Lines, normals: FloatArray) -> tuple[FloatArray, Boo
         Where a demonstration does not cross the plane near its station.
     """
     offsets = np.einsum("ij,ij->i", lines.directrix, normals)
-    heights = normals @ lines.path[lines.knots].T - offsets[:, None]
+    heights = normals @ np.take(lines.path, lines.knots, axis=0).T
+    heights -= offsets[:, None]
     points, away = _ends(lines, heights)
     station, knot = _nearest_crossings(lines, heights <= 0.0, away)
     whose = lines.owner[knot]
     low, high = lines.knots[knot], lines.knots[knot + 1]
-    points[station, whose] = _refined(lines.path, low, high, normals[station], offsets[station])
+    planes = np.take(normals, station, axis=0), np.take(offsets, station)
+    points[station, whose] = _refined(lines.path, low, high, *planes)
     missed = np.ones(points.shape[:2], dtype=bool)
     missed[station, whose] = False
     lost = missed & (away > SEARCH * lines.lengths)
@@ -105,12 +107,11 @@ def lines_of(demonstrations: tuple[Trimmed, ...], alignment: Alignment) -> Lines
     gone: list[FloatArray] = []
     wanted: list[FloatArray] = []
     for demonstration, moments in zip(demonstrations, alignment.moments, strict=True):
-        last = len(demonstration.positions) - 1
-        knots: IntArray = np.array([*range(0, last, -(-last // KNOTS)), last], dtype=np.intp)
+        knots, length = _knots(demonstration)
         chosen.append(knots)
-        gone.append(arc_length(demonstration.positions[knots]))
-        sample = interpolated(moments, demonstration.times, np.arange(last + 1, dtype=np.float64))
-        wanted.append(interpolated(sample, knots.astype(np.float64), gone[-1]))
+        gone.append(length)
+        sample = interpolated(moments, demonstration.times, np.arange(knots[-1] + 1, dtype=np.float64))
+        wanted.append(interpolated(sample, knots.astype(np.float64), length))
     owner = np.repeat(np.arange(len(counts)), [len(knots) for knots in chosen])
     return Lines(
         path=np.concatenate([demonstration.positions for demonstration in demonstrations]),
@@ -122,6 +123,14 @@ def lines_of(demonstrations: tuple[Trimmed, ...], alignment: Alignment) -> Lines
         wanted=np.array(wanted),
         directrix=alignment.directrix,
     )
+
+
+@remembered
+def _knots(demonstration: Trimmed) -> tuple[IntArray, FloatArray]:
+    """Samples (K,) of a demonstration at which it is searched, and its length up to them (K,) [m]."""
+    last = len(demonstration.positions) - 1
+    knots: IntArray = np.array([*range(0, last, -(-last // KNOTS)), last], dtype=np.intp)
+    return read_only(knots), read_only(arc_length(demonstration.positions[knots]))
 
 
 def _ends(lines: Lines, heights: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -175,10 +184,11 @@ def _refined(
     """Halve the brackets low..high (K,) of sample numbers to one piece, then interpolate on it."""
     while int((high - low).max(initial=0)) > 1:
         middle = (low + high) // 2
-        ahead = np.einsum("ij,ij->i", path[middle], normals) > offsets
+        ahead = np.einsum("ij,ij->i", np.take(path, middle, axis=0), normals) > offsets
         # A bracket of one piece has its middle at its low end, which is not ahead.
         low, high = np.where(ahead, low, middle), np.where(ahead, middle, high)
-    before = offsets - np.einsum("ij,ij->i", path[low], normals)
-    step = np.einsum("ij,ij->i", path[high] - path[low], normals)
+    begin, end = np.take(path, low, axis=0), np.take(path, high, axis=0)
+    before = offsets - np.einsum("ij,ij->i", begin, normals)
+    step = np.einsum("ij,ij->i", end - begin, normals)
     part = np.clip(before / np.where(step > 0.0, step, 1.0), 0.0, 1.0)[:, None]
-    return path[low] * (1.0 - part) + path[high] * part
+    return begin * (1.0 - part) + end * part

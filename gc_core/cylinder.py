@@ -6,16 +6,17 @@ they are interpolated at equal angle (`gc_core.location`).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gc_core.arrays import BoolArray, FloatArray, finite, read_only, read_only_fields
+from gc_core.arrays import BoolArray, FloatArray, finite, read_only, read_only_fields, remembered
 from gc_core.diagnostics import Diagnostics
 from gc_core.frames import arc_length
 from gc_core.location import Sweep, inside, most_central, sweep_of
+from gc_core.radius import radius_at, vertex_angles, widened_to_hold
 from gc_core.surface import section_surface
 
 
@@ -148,6 +149,31 @@ class GeneralizedCylinder:
             If the points are not finite places.
         """
         return inside(self.sweep, finite(points, "points", (None, 3)))
+
+
+@remembered
+def coarser(cylinder: GeneralizedCylinder, angles: int) -> GeneralizedCylinder:
+    """Give a tube sections with fewer vertices, for previews.
+
+    Parameters
+    ----------
+    cylinder : GeneralizedCylinder
+    angles : int
+        Vertices of each section from now on, at least 3.
+
+    Returns
+    -------
+    GeneralizedCylinder
+        The new vertices lie on the former boundary, or so far outside that the sections still hold the
+        effective points. The same object if it has not more vertices than that; the result is remembered as
+        long as the cylinder lives.
+    """
+    if angles >= len(cylinder.angles):
+        return cylinder
+    fewer = vertex_angles(angles)
+    radii = radius_at(cylinder.radii, np.arange(len(cylinder.radii))[:, None], fewer)
+    points = (cylinder.effective_points - cylinder.directrix[:, None]) @ cylinder.frames[:, :, 1:]
+    return replace(cylinder, angles=fewer, radii=widened_to_hold(radii, points))
 
 
 def _six_volumes(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:

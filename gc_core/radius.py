@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gc_core.arrays import FloatArray, IntArray
+from gc_core.arrays import FloatArray, IntArray, following
 
 GREATEST_SLOPE = 2.0
 """A section widens or narrows along the curve by at most this much per length [-]."""
@@ -114,33 +114,29 @@ def loop_radii(loops: FloatArray, count: int) -> FloatArray:
     x, y = loops[..., 0], loops[..., 1]
     # Angles in steps, on a grid on which sums are exact: a ray through a shared vertex belongs to one edge.
     angle = np.rint(np.arctan2(y, x) * (count / (2.0 * np.pi)) * FINE) / FINE
-    turn = _next(angle) - angle
+    turn = following(angle) - angle
     turn -= count * np.round(turn / count)
     first = np.ceil(np.minimum(angle, angle + turn)).astype(np.intp).ravel()
     rays = np.ceil(np.maximum(angle, angle + turn)).astype(np.intp).ravel() - first
     edge = np.repeat(np.arange(rays.size), rays)
-    ray = (first - np.cumsum(rays) + rays)[edge] + np.arange(edge.size)
+    ray = np.take(first - np.cumsum(rays) + rays, edge) + np.arange(edge.size)
     ray = np.where(ray < 0, ray + count, ray)
-    along_x, along_y = _next(x) - x, _next(y) - y
+    along_x, along_y = following(x) - x, following(y) - y
     size = np.abs(along_x) + np.abs(along_y)
     scale = 1.0 / np.maximum(size, 1e-300)
     along_x, along_y = along_x * scale, along_y * scale
-    cross = (x * along_y - y * along_x).ravel()[edge]
+    cross = np.take(x * along_y - y * along_x, edge)
     square = x * x + y * y
-    far = np.sqrt(np.maximum(square, _next(square))).ravel()[edge]
+    far = np.take(np.sqrt(np.maximum(square, following(square))), edge)
     angles = vertex_angles(count)
-    slant = np.cos(angles)[ray] * along_y.ravel()[edge] - np.sin(angles)[ray] * along_x.ravel()[edge]
+    slant = np.take(np.cos(angles), ray) * np.take(along_y, edge)
+    slant -= np.take(np.sin(angles), ray) * np.take(along_x, edge)
     # An edge that points at the origin is met at its far end.
     parallel = np.abs(slant) <= 1e-12
     reach = np.where(parallel, far, cross / np.where(parallel, 1.0, slant))
     radii = np.zeros(len(loops) * count)
     np.maximum.at(radii, edge // loops.shape[1] * count + ray, np.clip(reach, 0.0, far))
     return radii.reshape(len(loops), count)
-
-
-def _next(values: FloatArray) -> FloatArray:
-    """Values (N, P) of the following vertex of each closed polygon."""
-    return np.concatenate((values[:, 1:], values[:, :1]), axis=1)
 
 
 def widened_to_hold(radii: FloatArray, points: FloatArray) -> FloatArray:

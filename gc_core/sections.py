@@ -11,7 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from gc_core.arrays import FloatArray, IntArray, read_only
+from gc_core.arrays import FloatArray, IntArray, following, preceding, read_only
 from gc_core.errors import UnknownOptionError
 from gc_core.radius import loop_radii, vertex_angles, widened_to_hold
 
@@ -143,7 +143,7 @@ def _corners(points: FloatArray) -> tuple[IntArray, IntArray]:
     n_corners : (N,) integer array
     """
     outermost = _outermost(points)
-    fresh = outermost != np.roll(outermost, 1, axis=1)
+    fresh = outermost != preceding(outermost)
     n_corners = np.maximum(fresh.sum(axis=1), 1)
     order = np.argsort(~fresh, axis=1, kind="stable")
     corners = np.take_along_axis(outermost, order, axis=1)
@@ -190,13 +190,13 @@ def _directions() -> FloatArray:
 
 def _spline_loops(corners: FloatArray) -> FloatArray:
     """Sample the periodic centripetal cubic through corners (K, n, 2): x and y (2, K, P)."""
-    following = np.roll(corners, -1, axis=1)
-    chord = following - corners
+    after = following(corners)
+    chord = after - corners
     step = np.sqrt(np.sqrt(np.einsum("ijk,ijk->ij", chord, chord)))
     step = np.maximum(step, 1e-3 * step.max(axis=1, keepdims=True))
     bend = _periodic_curvatures(chord / step[..., None], step)
     square = (step**2)[..., None]
-    pieces = np.stack((corners, following, square * bend, square * np.roll(bend, -1, axis=1)))
+    pieces = np.stack((corners, after, square * bend, square * following(bend)))
     curve = np.moveaxis(pieces, 0, 3) @ _piece_basis(CURVE_SAMPLES // corners.shape[1])
     return np.moveaxis(curve, 2, 0).reshape(2, len(corners), -1)
 
@@ -213,12 +213,12 @@ def _periodic_curvatures(slope: FloatArray, step: FloatArray) -> FloatArray:
     """Second derivatives (K, n, 2) at the knots of periodic cubics with these slopes and steps of pieces."""
     n = step.shape[1]
     here = np.arange(n, dtype=np.intp)
-    before = np.roll(step, 1, axis=1)
+    before = preceding(step)
     matrix = np.zeros((len(step), n, n))
     matrix[:, here, here] = 2.0 * (step + before)
     matrix[:, here, (here + 1) % n] += step
     matrix[:, here, (here - 1) % n] += before
-    solved = np.linalg.solve(matrix, 6.0 * (slope - np.roll(slope, 1, axis=1)))
+    solved = np.linalg.solve(matrix, 6.0 * (slope - preceding(slope)))
     return np.asarray(solved, dtype=np.float64)
 
 

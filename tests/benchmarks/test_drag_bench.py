@@ -25,6 +25,7 @@ from app.actions import Drag
 from app.arm import Jaco
 from app.desk import Desk
 from app.document import Document, FloatArray, Shown
+from app.pauses import avoid_pauses
 from app.resources import static_folder
 from app.viewers import Viewer
 from gc_core import Demonstration
@@ -131,6 +132,7 @@ def test_the_servers_work(
 ) -> None:
     desk = Desk(reaching(n_samples), jaco)
     desk.stage.pause()
+    avoid_pauses()  # as `gc-teach serve` does
     viewer = viewers.working(handle, Notes(), jaco, time.monotonic, [])
     puller = Puller(desk, viewer, node)
 
