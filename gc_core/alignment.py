@@ -8,13 +8,14 @@ of stations and `times` keeps the taught speed.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from gc_core.arrays import BoolArray, FloatArray, interpolated, read_only, remembered
 from gc_core.demonstration import Demonstration, Trimmed, sign_continuous
 from gc_core.errors import OpposedDemonstrationsError, UnknownOptionError
-from gc_core.frames import arc_length, smooth
+from gc_core.frames import arc_length, smooth, tangents
 from gc_core.hooks import without_hooks
 from gc_core.warping import warped_together
 
@@ -44,6 +45,11 @@ class Alignment:
     """(N,) mean time law, strictly increasing from 0 [s]."""
     smoothed: BoolArray
     """(N,) where the directrix leaves out a hook of the mean, see `hooks`."""
+
+    @cached_property
+    def along(self) -> FloatArray:
+        """(N, 3) unit tangents of the directrix [-]."""
+        return read_only(tangents(self.directrix))
 
 
 def align(

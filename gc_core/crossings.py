@@ -68,8 +68,7 @@ def effective_points(lines: Lines, normals: FloatArray) -> tuple[FloatArray, Boo
         Where a demonstration does not cross the plane near its station.
     """
     offsets = np.einsum("ij,ij->i", lines.directrix, normals)
-    heights = normals @ np.take(lines.path, lines.knots, axis=0).T
-    heights -= offsets[:, None]
+    heights = _heights(np.take(lines.path, lines.knots, axis=0), normals, offsets)
     points, away = _ends(lines, heights)
     station, knot = _nearest_crossings(lines, heights <= 0.0, away)
     whose = lines.owner[knot]
@@ -125,6 +124,13 @@ def lines_of(demonstrations: tuple[Trimmed, ...], alignment: Alignment) -> Lines
     )
 
 
+def _heights(places: FloatArray, normals: FloatArray, offsets: FloatArray) -> FloatArray:
+    """Heights (N, K) of places (K, 3) over planes with normals (N, 3) and distances (N,) from the origin [m]."""
+    # In one product: to subtract afterwards takes three times as long.
+    planes = np.concatenate((normals, -offsets[:, None]), axis=1)
+    return planes @ np.concatenate((places.T, np.ones((1, len(places)))))
+
+
 @remembered
 def _knots(demonstration: Trimmed) -> tuple[IntArray, FloatArray]:
     """Samples (K,) of a demonstration at which it is searched, and its length up to them (K,) [m]."""
@@ -173,7 +179,7 @@ def _nearest_approach(
     """Knot (K, 3) of demonstration j that comes nearest to the planes `rows` (K,) within the search."""
     mine = lines.owner == j
     path, gone = lines.path[lines.knots[mine]], lines.gone[mine]
-    height = np.abs(normals[rows] @ path.T - offsets[rows, None])
+    height = np.abs(_heights(path, normals[rows], offsets[rows]))
     far = np.abs(gone - lines.wanted[j, rows, None]) > SEARCH * lines.lengths[j]
     return path[np.argmin(np.where(far, np.inf, height), axis=1)]
 

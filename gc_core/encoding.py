@@ -20,7 +20,7 @@ from gc_core.errors import (
     TooFewSamplesError,
     UnknownOptionError,
 )
-from gc_core.frames import angles_between, tangents
+from gc_core.frames import angles_between
 from gc_core.radius import vertex_angles
 from gc_core.sections import SECTIONS
 from gc_core.slicing import Settings, Slices, slices_of
@@ -166,7 +166,7 @@ def _assemble(
             minimum_half_width=settings.half_width,
             assumed_width=len(shown) == 1,
             crossing=slices.crossing,
-            tilt=angles_between(normals, tangents(alignment.directrix)),
+            tilt=angles_between(normals, alignment.along),
             folded=np.zeros(len(normals), dtype=bool),
         ),
     )

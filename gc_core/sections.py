@@ -102,8 +102,10 @@ def _quadratic(vectors: FloatArray, form: FloatArray) -> FloatArray:
 
 def hull(points: FloatArray, count: int, half_width: float) -> FloatArray:
     """Convex hull of the points, thickened where it is thinner than twice the half-width."""
-    corners, _ = _corners(points)
-    return loop_radii(_thickened(points, corners, _lacking_width(points, half_width)), count)
+    supports = _supports(points)
+    corners, _ = _corners(points, supports)
+    lacking = _lacking_width(supports, half_width)
+    return loop_radii(_thickened(points, corners, lacking), count)
 
 
 def closed_spline(points: FloatArray, count: int, half_width: float) -> FloatArray:
@@ -115,8 +117,9 @@ def closed_spline(points: FloatArray, count: int, half_width: float) -> FloatArr
        Generalization, and Refinement of Robot Skills. RSS 2017. (Its "natural" ends would leave a corner.)
     .. [2] E. T. Y. Lee. Choosing nodes in parametric curve interpolation. CAD 21(6), 1989.
     """
-    corners, n_corners = _corners(points)
-    lacking = _lacking_width(points, half_width)
+    supports = _supports(points)
+    corners, n_corners = _corners(points, supports)
+    lacking = _lacking_width(supports, half_width)
     # Corners on one line, to within rounding, have no curve round them; there the least thickness rules.
     round_ = (n_corners > 2) & (lacking < (1.0 - 1e-9) * half_width)
     loops = np.zeros((2, len(points), CURVE_SAMPLES))
@@ -133,8 +136,14 @@ def closed_spline(points: FloatArray, count: int, half_width: float) -> FloatArr
     return radii
 
 
-def _corners(points: FloatArray) -> tuple[IntArray, IntArray]:
-    """Outermost points in order round the hull.
+def _supports(points: FloatArray) -> FloatArray:
+    """How far (n, N, D) points (N, n, 2) are out in each direction [m]."""
+    # Points first: the outermost ones are then found by operations on whole arrays.
+    return np.ascontiguousarray(points.transpose(1, 0, 2)) @ _directions().T
+
+
+def _corners(points: FloatArray, supports: FloatArray) -> tuple[IntArray, IntArray]:
+    """Outermost points in order round the hull; see `_supports`.
 
     Returns
     -------
@@ -142,7 +151,7 @@ def _corners(points: FloatArray) -> tuple[IntArray, IntArray]:
         Corner numbers; the first `n_corners` of a row differ, the rest repeat the first.
     n_corners : (N,) integer array
     """
-    outermost = _outermost(points)
+    outermost = _outermost(points, supports)
     fresh = outermost != preceding(outermost)
     n_corners = np.maximum(fresh.sum(axis=1), 1)
     order = np.argsort(~fresh, axis=1, kind="stable")
@@ -151,20 +160,23 @@ def _corners(points: FloatArray) -> tuple[IntArray, IntArray]:
     return np.where(beyond, corners[:, :1], corners), n_corners
 
 
-def _outermost(points: FloatArray) -> IntArray:
+def _outermost(points: FloatArray, supports: FloatArray) -> IntArray:
     """Point (N, D) that is farthest in each direction; of equal ones, the one farther from the centre.
 
     Else a point on the straight edge between two corners would be a corner or not by rounding.
     """
-    away = np.sqrt(np.einsum("ijk,ijk->ij", points, points))
-    support = points @ _directions().T
-    support += TIE * away[:, :, None]
-    return np.argmax(support, axis=1)
+    away = np.sqrt(np.einsum("ijk,ijk->ji", points, points))
+    supports = supports + TIE * away[:, :, None]
+    farthest, outermost = supports[0], np.zeros(supports.shape[1:], dtype=np.intp)
+    for index, support in enumerate(supports[1:], 1):
+        np.copyto(outermost, index, where=support > farthest)
+        np.maximum(farthest, support, out=farthest)
+    return outermost
 
 
-def _lacking_width(points: FloatArray, half_width: float) -> FloatArray:
-    """How far (N,) the hulls of points (N, n, 2) must grow to be twice the half-width thick everywhere."""
-    support = (points @ _directions().T).max(axis=1)
+def _lacking_width(supports: FloatArray, half_width: float) -> FloatArray:
+    """How far (N,) the hulls must grow to be twice the half-width thick everywhere; see `_supports`."""
+    support = supports.max(axis=0)
     width = support + np.roll(support, SUPPORT_DIRECTIONS // 2, axis=1)
     return np.maximum(half_width - 0.5 * width.min(axis=1), 0.0)
 
@@ -174,7 +186,7 @@ def _thickened(points: FloatArray, corners: IntArray, lacking: FloatArray) -> Fl
     if not lacking.any():
         most = int((corners != corners[:, :1]).sum(axis=1).max()) + 1
         return np.take_along_axis(points, corners[:, :most, None], axis=1)
-    outermost = _outermost(points)
+    outermost = _outermost(points, _supports(points))
     loops = np.take_along_axis(points, outermost[:, :, None], axis=1)
     # The polygon of directions lies inside the disc that it stands for.
     grown = lacking / np.cos(np.pi / SUPPORT_DIRECTIONS)

@@ -11,7 +11,7 @@ from gc_core.alignment import Alignment
 from gc_core.arrays import BoolArray, FloatArray
 from gc_core.crossings import Lines, effective_points, lines_of
 from gc_core.demonstration import Trimmed
-from gc_core.frames import arc_length, rotation_minimizing_frames, tangents
+from gc_core.frames import arc_length, rotation_minimizing_frames
 from gc_core.radius import slope_limited, vertex_angles
 from gc_core.sections import section_radii
 from gc_core.surface import boundary_advance, crossing_stations, section_surface
@@ -69,7 +69,7 @@ def slices_of(trimmed: tuple[Trimmed, ...], alignment: Alignment, settings: Sett
     Slices
         At the alignment's stations.
     """
-    along = tangents(alignment.directrix)
+    along = alignment.along
     first = _first_normal(alignment, along[0])
     lines = lines_of(trimmed, alignment)
     slices = _cut(lines, along, first, settings)
