@@ -14,7 +14,7 @@ from typing import Final
 TRIM_THRESHOLD, MMAP_THRESHOLD = -1, -3
 """Numbers of glibc's malloc.h."""
 KEPT: Final = 16 << 20
-"""Free memory at the end of a heap that is not handed back [bytes]; a process has eight heaps a core at most."""
+"""Free memory at the end of a heap that is not handed back [bytes]; a core has eight heaps at most."""
 LARGE: Final = 4 << 20
 """Arrays from this size on are mapped on their own and handed back [bytes]."""
 

@@ -125,7 +125,7 @@ def lines_of(demonstrations: tuple[Trimmed, ...], alignment: Alignment) -> Lines
 
 
 def _heights(places: FloatArray, normals: FloatArray, offsets: FloatArray) -> FloatArray:
-    """Heights (N, K) of places (K, 3) over planes with normals (N, 3) and distances (N,) from the origin [m]."""
+    """Heights (N, K) of places (K, 3) over planes of normals (N, 3) at offsets (N,) from the origin [m]."""
     # In one product: to subtract afterwards takes three times as long.
     planes = np.concatenate((normals, -offsets[:, None]), axis=1)
     return planes @ np.concatenate((places.T, np.ones((1, len(places)))))
