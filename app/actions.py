@@ -35,6 +35,8 @@ class Drag:
     """Shift is held: only the height changes."""
     eye: FloatArray | None = None
     """(3,) the camera [m], where it is known."""
+    ahead: FloatArray | None = None
+    """(3,) where the camera looks, a unit vector, where it is known."""
     aside: bool = False
     """Pulled with the right button: moves the hand without recording."""
 
@@ -88,6 +90,30 @@ class Actions(Protocol):
 
     def see_from(self, view: ViewName) -> None:
         """Look from one of the named viewpoints of the scene."""
+        ...
+
+    def start_replay(self) -> None:
+        """Replay what the `View` names, slowly, and let the hand be pulled aside."""
+        ...
+
+    def stop_replay(self) -> None:
+        """End the replay where it is."""
+        ...
+
+    def preview(self, choice: int) -> None:
+        """Show what another choice of the `Proposal` would do."""
+        ...
+
+    def answer(self, choice: int | None) -> None:
+        """Do with a correction what one of the choices says; None discards it."""
+        ...
+
+    def try_physics(self) -> None:
+        """Let the arm play the run in a physical world, under the limits of its motors."""
+        ...
+
+    def play_trial(self, playing: bool) -> None:
+        """Show in the scene what the arm did there."""
         ...
 
     def offer_file(self, name: str, content: bytes) -> None:

@@ -11,6 +11,7 @@ from typing import Any, Final
 
 from app import attention, edits, gesture, handpull, judgement, sentences
 from app.actions import Drag
+from app.amending import Amending, Said
 from app.arm.protocol import Arm
 from app.document import Document, FloatArray, View
 from app.files import Frame, Reading, Unit
@@ -18,8 +19,10 @@ from app.gesture import Pull
 from app.grasp import Grasp
 from app.handpull import HandPull
 from app.model import Model, learn
+from app.offering import Offering
+from app.proposal import FIRST_ANSWER
 from app.stage import Stage
-from app.store import Hand, Offer, Plan, Playback, State, Store
+from app.store import Hand, Plan, Playback, State, Store
 from app.surroundings import conditions_of
 
 SLIP: Final = 0.001
@@ -41,11 +44,11 @@ class Desk:
         self.view = View()
         self.model = learn(document)
         self.stage = Stage(arm)
-        self.offer: Offer | None = None
+        self._offering = Offering()
         self.message, self.warning = document.about, False
         self._held: Grasp | None = None
+        self.amending = Amending(self.stage, self.store)
         self.saved = self.saving = document
-        self._reading: Reading | None = None
         self._set_stage()
 
     # --- what is drawn -----------------------------------------------------------------
@@ -62,18 +65,21 @@ class Desk:
             playback=self.stage.shown,
             plan=self.stage.plan(self.model),
             plans=self.stage.plans(self.model),
-            dragging=None if self._held is None else self._held.node,
+            dragging=self.amending.holds if self._held is None else self._held.node,
             undo_name=self.store.undo_name,
             redo_name=self.store.redo_name,
             message=message,
             warning=warning,
-            offer=self.offer,
+            offer=self._offering.offer,
+            replay=self.amending.progress,
+            proposal=self.amending.proposal,
+            trial=self.stage.trial(self.model),
             saved=self.saved is self.store.document,
         )
 
     def _learned(self) -> Document:
         """Give what is shown, and see to it that it is learned."""
-        document = self.store.document
+        document = self.amending.shown(self.store.document)
         if self._held is not None:
             document = self._held.shown(document)
         if self.model.source is not document:
@@ -105,8 +111,10 @@ class Desk:
             self.say("")
 
     def undo(self, now: float) -> None:
-        """Take the last step back."""
+        """Take the last step back; a correction that waits is the last step."""
         self.let_go(now)
+        if self.amending.waits:
+            return self.amend(lambda a: a.answer(None, now))
         name = self.store.undo()
         self.say("There is nothing to undo." if name is None else f"Undone: {name}.")
 
@@ -119,6 +127,7 @@ class Desk:
     def open(self, document: Document, now: float) -> None:
         """Put another skill on the desk; can be undone. In an empty one the hand goes home."""
         self.let_go(now)
+        self.amending.discard()
         self.store.replace(document, f"open {document.title}", now=now)
         self.stage.playback = Playback(playing=bool(document.demonstrations))
         if document.demonstrations:
@@ -144,36 +153,26 @@ class Desk:
 
     def offer_reading(self, reading: Reading) -> None:
         """Show what is in an uploaded file."""
-        self._reading = reading
-        self.offer = Offer(
-            reading.name,
-            reading.summary,
-            reading.unit,
-            reading.unit_reason,
-            reading.frame,
-            reading.frame_reason,
-        )
-        self.say(f"Check what is in {reading.name}, then accept it.")
+        self.say(self._offering.take_in(reading))
 
     def accept_file(self, unit: Unit, frame: Frame, now: float) -> None:
         """Take over the demonstrations of the offered file.
 
         They join a skill of one's own; next to a built-in one they open as a new skill.
         """
-        reading = self._reading
-        if reading is None:
+        accepted = self._offering.accepted(unit, frame)
+        if accepted is None:
             return
-        demonstrations = reading.accepted(unit, frame)
-        self.decline_file()
+        name, summary, demonstrations = accepted
         if self.store.document.built_in:
-            self.open(edits.skill_of(Path(reading.name).stem, demonstrations), now)
+            self.open(edits.skill_of(Path(name).stem, demonstrations), now)
         else:
-            self.edit(lambda d: edits.add_demonstrations(d, demonstrations), f"add {reading.name}", now=now)
-        self.say(f"{reading.name}: {reading.summary_in(unit)}")
+            self.edit(lambda d: edits.add_demonstrations(d, demonstrations), f"add {name}", now=now)
+        self.say(f"{name}: {summary}")
 
     def decline_file(self) -> None:
         """Forget the offered file."""
-        self._reading = self.offer = None
+        self._offering.forget()
         self.say("")
 
     # --- playback ----------------------------------------------------------------------
@@ -185,6 +184,40 @@ class Desk:
         if known and words is not None:
             self.say(words, warning=True)
 
+    def play(self, playing: bool, now: float) -> None:
+        """Start or pause the playback."""
+        self._end_shows(now)
+        self.stage.play(playing)
+
+    def seek(self, time: float, now: float) -> None:
+        """Move the playhead [s]."""
+        self._end_shows(now)
+        self.stage.seek(time)
+
+    def play_trial(self, playing: bool, now: float) -> None:
+        """Show what the arm did in the physical world, or no longer."""
+        self.let_go(now)
+        self.stage.play_trial(playing)
+
+    def _end_shows(self, now: float) -> None:
+        """End what moves the arm in place of the playhead."""
+        self.amend(lambda a: a.end(now))
+        self.stage.play_trial(False)
+
+    # --- replay and correct ------------------------------------------------------------
+
+    def start_replay(self, now: float) -> None:
+        """Replay what the view names, and let the hand be pulled aside."""
+        self.let_go(now)
+        self._learned()
+        self.amend(lambda a: a.start(self.view, self.model, now))
+
+    def amend(self, act: Callable[[Amending], Said | None]) -> None:
+        """Do something with the replay or the correction that waits, and say what came of it."""
+        said = act(self.amending)
+        if said is not None:
+            self.say(said[0], warning=said[1])
+
     def choose_run(self, run: int) -> None:
         """Play another reproduction from its beginning."""
         if 0 <= run < len(self.model.runs):
@@ -194,6 +227,11 @@ class Desk:
 
     def drag(self, drag: Drag) -> None:
         """Begin, continue or end a pull."""
+        if self.amending.replays:
+            return self.amend(lambda a: a.drag(drag))
+        if self.amending.waits and drag.phase == "start":
+            self.let_go(drag.time)
+            return self.say(FIRST_ANSWER, warning=True)
         held = self._held
         if drag.phase == "start" and (held is None or not held.goes_on(drag)):
             self.let_go(drag.time)
@@ -227,6 +265,7 @@ class Desk:
 
     def let_go(self, now: float) -> None:
         """End whatever is pulled, and keep what it did."""
+        self._end_shows(now)
         held, self._held = self._held, None
         if held is None:
             return
@@ -264,6 +303,10 @@ class Desk:
 
     def tick(self, now: float, dt: float) -> bool:
         """Move on what moves by itself; returns whether something still moves."""
+        if self.amending.replays:
+            if self.amending.tick(now):
+                self.amend(lambda a: a.end(now))
+            return True
         held = self._held
         if held is not None and held.ends is not None and now >= held.ends:
             self.let_go(now)

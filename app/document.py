@@ -102,6 +102,7 @@ class Document:
 
 Pace: TypeAlias = Literal["taught", "fastest"]
 Tab: TypeAlias = Literal["Teach", "Try", "Move", "Fix"]
+Feel: TypeAlias = Literal["soft", "medium", "firm"]
 
 
 @dataclass(frozen=True)
@@ -123,5 +124,11 @@ class View:
     loop: bool = True
     tool: tuple[float, float, float, float] | None = None
     """The tool is held like this while the arm is moved, w x y z; None: free, rather pointing down."""
+    replay: str = "/demonstrations/0"
+    """Scene name of what is replayed to be corrected."""
+    replay_speed: float = 0.5
+    """Of that replay, as a multiple of the taught one: 0.25 .. 1."""
+    replay_feel: Feel = "medium"
+    """How hard the hand is to pull aside then."""
     placing: LandmarkKind | None = None
     """The next click in the scene places a landmark of this kind."""

@@ -43,11 +43,11 @@ class Seat:
 
     def play(self, playing: bool) -> None:
         """See `Actions.play`."""
-        self._post(lambda desk, _: desk.stage.play(playing))
+        self._post(lambda desk, now: desk.play(playing, now))
 
     def seek(self, time: float) -> None:
         """See `Actions.seek`."""
-        self._post(lambda desk, _: desk.stage.seek(time))
+        self._post(lambda desk, now: desk.seek(time, now))
 
     def choose_run(self, run: int) -> None:
         """See `Actions.choose_run`."""
@@ -68,6 +68,30 @@ class Seat:
     def toggle_gripper(self) -> None:
         """See `Actions.toggle_gripper`."""
         self._post(lambda desk, _: desk.toggle_gripper())
+
+    def start_replay(self) -> None:
+        """See `Actions.start_replay`."""
+        self._post(lambda desk, now: desk.start_replay(now))
+
+    def stop_replay(self) -> None:
+        """See `Actions.stop_replay`."""
+        self._post(lambda desk, now: desk.amend(lambda a: a.end(now)))
+
+    def preview(self, choice: int) -> None:
+        """See `Actions.preview`."""
+        self._post(lambda desk, _: desk.amending.preview(choice))
+
+    def answer(self, choice: int | None) -> None:
+        """See `Actions.answer`."""
+        self._post(lambda desk, now: desk.amend(lambda a: a.answer(choice, now)))
+
+    def try_physics(self) -> None:
+        """See `Actions.try_physics`."""
+        self._session.try_physics(self._client_id)
+
+    def play_trial(self, playing: bool) -> None:
+        """See `Actions.play_trial`."""
+        self._post(lambda desk, now: desk.play_trial(playing, now))
 
     def see_from(self, view: ViewName) -> None:
         """See `Actions.see_from`."""

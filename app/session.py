@@ -25,12 +25,12 @@ from app.desk import Desk
 from app.document import Document, FloatArray
 from app.files import inspect_bytes
 from app.library import Library, LibraryError
-from app.model import Model
 from app.planning import plan_run
 from app.scene import VIEWS
 from app.seat import Seat
-from app.shapes import Shapes, same_but_for_section, shapes_of
+from app.shaping import Shaping
 from app.store import Plan, State
+from app.trials import Trials
 from app.viewers import Viewer
 from gc_core import GcError, Reproduction
 
@@ -74,8 +74,6 @@ class Session:
         self._viewers: dict[int, Viewer] = {}
         self._works: int | None = None
         self._asked: tuple[Reproduction, Conditions] | None = None
-        self._shaped: Model | None = None
-        self._shapes: Shapes | None = None
         self._logged = ""
         self._time = self._touched = self._save_after = self.clock()
         self._writing = threading.Lock()
@@ -83,7 +81,8 @@ class Session:
         self._plans = Latest(workshop.workers, self._actor)
         self._saves = Latest(workshop.workers, self._actor)
         self._files = Latest(workshop.workers, self._actor)
-        self._drawings = Latest(workshop.workers, self._actor)
+        self._shaping = Shaping(workshop.workers, self._actor)
+        self._trials = Trials(workshop.workers, self._actor, workshop.make_arm)
 
     @staticmethod
     def clock() -> float:
@@ -116,6 +115,7 @@ class Session:
 
     def close(self) -> None:
         """Finish, save and stop."""
+        self._trials.give_up()
         self._actor.post(self._save_now)
         self._actor.post(self._arm.close)  # there, so that nobody else gets it while it is still used
         self._actor.close()
@@ -207,6 +207,10 @@ class Session:
 
         self.post(client_id, look)
 
+    def try_physics(self, client_id: int) -> None:
+        """Let a worker play the run in a physical world."""
+        self.post(client_id, self._trials.begin)
+
     def tell(self, client_id: int, message: str) -> None:
         """Show a warning to the tab that works here, if it is this one."""
         self.post(client_id, lambda desk, _: desk.say(message, warning=True))
@@ -223,26 +227,14 @@ class Session:
         return self._desk.tick(now, dt if dt < LONGEST_TICK else TICK)
 
     def _draw(self) -> None:
-        state = replace(self._desk.state(), shapes=self._shapes)
+        state = replace(self._desk.state(), shapes=self._shaping.shapes)
         try:
             for viewer in tuple(self._viewers.values()):
                 viewer.draw(state)
         finally:  # what cannot be drawn is saved all the same
             self._save()
             self._plan(state)
-            self._shape(state)
-
-    def _shape(self, state: State) -> None:
-        """Have the skill drawn in every kind of cross-section, unless it is or will be."""
-        model = state.model
-        if state.dragging is not None or model.cylinder is None:
-            return
-        if self._shaped is None or not same_but_for_section(self._shaped, model):
-            self._shaped = model
-            self._drawings.submit(lambda: shapes_of(model), self._accept_shapes)
-
-    def _accept_shapes(self, shapes: Shapes) -> None:
-        self._shapes = shapes
+            self._shaping.follow(state)
 
     def _plan(self, state: State) -> None:
         """Have a run checked that was not yet, one after the other; the one that is played comes first."""

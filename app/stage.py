@@ -9,7 +9,8 @@ from app.arm.protocol import Arm, FloatArray
 from app.document import View
 from app.driver import Driver, Lead, lead_at
 from app.model import Model
-from app.store import Hand, Plan, Playback
+from app.store import Hand, Plan, Playback, Task
+from app.trial import Trial
 
 GLIDE: Final = 0.7
 """In a loop the arm goes back to the start in what is left of the rest after this part of it."""
@@ -26,6 +27,7 @@ class Stage:
         self._plans: tuple[Plan, ...] = ()
         self._planned_for: tuple[Model | None, Conditions] = None, arm.conditions
         self._began: FloatArray | None = None
+        self._trial: Trial | None = None
 
     @property
     def hand(self) -> Hand:
@@ -85,6 +87,43 @@ class Stage:
             plan.reproduction is model.runs[plan.run].reproduction and plan.source.cylinder is model.cylinder
         )
 
+    def trial(self, model: Model) -> Trial | None:
+        """Give what physics made of a run, and whether it is of a former model."""
+        trial = self._trial
+        if trial is not None and trial.source is not model and not trial.stale:
+            trial = self._trial = replace(trial, stale=True, time=None)
+        return trial
+
+    def task(self, model: Model) -> Task | None:
+        """Say what a worker must know to play the present run in a physical world; None without a run."""
+        run = self.playback.run
+        if run >= len(model.runs):
+            return None
+        return Task(model, run, self.arm.conditions, self.begins_near(), self.plan(model))
+
+    def accept_trial(self, trial: Trial) -> None:
+        """Take over what physics made of a run, or how far it is."""
+        self._trial = trial
+
+    def play_trial(self, playing: bool) -> None:
+        """Show what happened there from its beginning, or no longer."""
+        trial = self._trial
+        if trial is None or trial.played is None or (not playing and trial.time is None):
+            return
+        self.pause()
+        self.driver.pulled(self.hand)
+        self._trial = replace(trial, time=0.0 if playing and not trial.stale else None)
+
+    def _show_trial(self, trial: Trial, dt: float) -> bool:
+        """Move the arm as it moved there; at the end it stays."""
+        assert trial.played is not None
+        played, time = trial.played, (trial.time or 0.0) + dt
+        moving = time < played.times[-1]
+        trial = self._trial = replace(trial, time=min(time, float(played.times[-1])))
+        at = trial.index()
+        self.driver.pulled(Hand(played.joints[at], played.positions[at], self.hand.gripper))
+        return moving
+
     def begins_near(self) -> FloatArray:
         """(J,) joints near which the next joint path should begin [rad]."""
         return self.hand.joints if self._began is None else self._began
@@ -112,6 +151,8 @@ class Stage:
 
     def tick(self, now: float, dt: float, model: Model, view: View) -> bool:
         """Move on what moves by itself; returns whether something still moves."""
+        if self._trial is not None and self._trial.time is not None:
+            return self._show_trial(self._trial, view.speed * dt)
         plan = self.plan(model)
         pace = None if plan is None else player.pace_of(plan, view.pace)
         self.playback = player.advance(self.playback, dt, speed=view.speed, loop=view.loop, pace=pace)

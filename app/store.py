@@ -15,7 +15,9 @@ from app.arm.verdict import Verdict
 from app.document import Document, FloatArray, View
 from app.files import Frame, Unit
 from app.model import Model
+from app.proposal import Proposal
 from app.shapes import Shapes
+from app.trial import Trial
 from gc_core import Reproduction
 
 MERGE_WITHIN: Final = 1.0
@@ -64,6 +66,21 @@ class Plan:
 
 
 @dataclass(frozen=True, eq=False)
+class Task:
+    """A run that a worker shall play in a physical world, and what it must know for that."""
+
+    model: Model
+    run: int
+    """Which reproduction."""
+    conditions: Conditions
+    """What is around the arm."""
+    near: FloatArray
+    """(J,) joints near which a joint path begins, where there is no plan yet [rad]."""
+    plan: Plan | None
+    """How the arm plays the run, where it is known."""
+
+
+@dataclass(frozen=True, eq=False)
 class Hand:
     """The arm as it is drawn."""
 
@@ -94,6 +111,24 @@ class Playback:
     playing: bool = False
     run: int = 0
     """Which reproduction is played."""
+
+
+@dataclass(frozen=True, eq=False)
+class Progress:
+    """A replay that lets itself be corrected, as far as it is."""
+
+    name: str
+    """Of what is replayed."""
+    path: FloatArray
+    """(K, 3) what is replayed [m]."""
+    done: FloatArray
+    """(T, 3) where the hand has been so far [m]; T may be 0."""
+    time: float
+    """Of what is replayed [s]."""
+    duration: float
+    """[s]."""
+    held: bool
+    """Whether the hand is held."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,6 +173,12 @@ class State:
     """Whether the message says that something is wrong."""
     offer: Offer | None = None
     """A file that waits to be accepted."""
+    replay: Progress | None = None
+    """A replay that lets itself be corrected."""
+    proposal: Proposal | None = None
+    """A correction that waits for an answer; ``document`` is as the previewed choice would make it."""
+    trial: Trial | None = None
+    """What physics made of a run, if it was asked."""
     shapes: Shapes | None = None
     """The skill in every kind of cross-section; of a former model until those of this one are made."""
     saved: bool = True

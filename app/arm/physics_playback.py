@@ -9,6 +9,7 @@ to the hand until the gripper opens. Fingers do not move and do not squeeze.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -28,6 +29,8 @@ GRASP_REACH = 0.02
 """From the point between the finger tips to the surface of what is grasped, at most [m]."""
 CLOSED = 0.5
 """A gripper channel of this and more is closed."""
+WATCHED = 0.25
+"""Between two words about how far a playback is [s]."""
 REST = 0.25
 """How long the arm is watched after its path [s]."""
 
@@ -58,6 +61,7 @@ def play(
     gripper: npt.ArrayLike | None = None,
     *,
     effort: float = 1.0,
+    watch: Callable[[float], None] | None = None,
 ) -> Playback:
     """Let the arm follow a timed joint path as well as its motors can.
 
@@ -73,6 +77,8 @@ def play(
         0 open .. 1 closed; holds from each time to the next.
     effort : float
         Share of the torque limits that the motors may use, above 0.
+    watch : callable, optional
+        Told each `WATCHED` of the path how much of it is done, 0 .. 1; what it raises ends the playback.
 
     Returns
     -------
@@ -99,6 +105,8 @@ def play(
     rates = np.diff(wanted, axis=0) * STEPS_PER_SECOND
     _begin(world, wanted[0], rates[0])
     for index, time in enumerate(steps.tolist()):
+        if watch is not None and index % round(WATCHED * STEPS_PER_SECOND) == 0:
+            watch(index / count)
         if index:
             # From where it should be now, at the speed that brings it to where it should be next.
             _drive(world, wanted[index - 1], rates[index - 1], effort)

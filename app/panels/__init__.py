@@ -19,7 +19,10 @@ from app.panels.kinds import KindsPanel
 from app.panels.landmarks import LandmarksPanel
 from app.panels.lesson import LessonPanel
 from app.panels.offer import OfferPanel
+from app.panels.physics import PhysicsPanel
 from app.panels.placing import PlacingPanel
+from app.panels.proposal import ProposalPanel
+from app.panels.replay import ReplayPanel
 from app.panels.rules import RulesPanel
 from app.panels.slice import SlicePanel
 from app.panels.smoothing import SmoothingPanel
@@ -76,7 +79,11 @@ def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]
     gui.set_panel_label("gc-teach")
     gui.main_panel.dock_right()
     gui.main_panel.set_width(MAIN_WIDTH)
-    header: tuple[Panel, ...] = (HeaderPanel(gui, actions, skills), StatusPanel(gui))
+    header: tuple[Panel, ...] = (
+        HeaderPanel(gui, actions, skills),
+        StatusPanel(gui),
+        ProposalPanel(gui, actions),
+    )
     tabs = gui.add_tab_group()
     with tabs.add_tab("Teach", viser.Icon.HAND_GRAB):
         teach: tuple[Panel, ...] = (
@@ -87,7 +94,11 @@ def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]
             EncodingPanel(gui, actions),
         )
     with tabs.add_tab("Try", viser.Icon.PLAYER_PLAY):
-        tries: tuple[Panel, ...] = (StartsPanel(gui, actions), VerdictPanel(gui, actions))
+        tries: tuple[Panel, ...] = (
+            StartsPanel(gui, actions),
+            VerdictPanel(gui, actions),
+            PhysicsPanel(gui, actions),
+        )
     with tabs.add_tab("Move", viser.Icon.MAP_PIN):
         move: tuple[Panel, ...] = (
             LandmarksPanel(gui, actions),
@@ -96,8 +107,8 @@ def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]
             SmoothingPanel(gui, actions),
         )
     with tabs.add_tab("Fix", viser.Icon.TOOL):
-        rules = RulesPanel(gui, actions)
-    return (*header, *teach, *tries, *move, rules)
+        fix: tuple[Panel, ...] = (ReplayPanel(gui, actions), RulesPanel(gui, actions))
+    return (*header, *teach, *tries, *move, *fix)
 
 
 def _side(gui: viser.GuiApi, actions: Actions) -> tuple[Panel, ...]:

@@ -53,6 +53,8 @@ class ArmFrames:
 def gripper_of(state: State) -> float:
     """0 is open, 1 is closed: as shown while a reproduction plays, else as the hand holds it."""
     playback = state.playback
+    if state.replay is not None or (state.trial is not None and state.trial.time is not None):
+        return state.hand.gripper
     if playback.playing and playback.run < len(state.model.runs):
         played = state.model.runs[playback.run].reproduction
         if played.gripper is not None:

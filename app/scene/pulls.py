@@ -130,6 +130,12 @@ def levelled(camera: FloatArray, pointer: FloatArray, height: float) -> FloatArr
     return camera + share * sight if 0.3 < share < 3.0 else pointer
 
 
+def unit(direction: FloatArray) -> FloatArray | None:
+    """Give a direction (3,) the length 1; None where it makes no sense: it came from the page."""
+    length = float(np.linalg.norm(direction))
+    return direction / length if np.isfinite(length) and length > 0.0 else None
+
+
 class _Pull:
     """The pulls on one node."""
 
@@ -139,6 +145,7 @@ class _Pull:
         self._handle, self._actions, self._clock = handle, actions, clock
         self._ball, self._level = ball, level
         self._ratio = 1.0
+        self._ahead: FloatArray | None = None
         self._last: Drag | None = None
 
     def callback(self) -> Callable[[Event], Coroutine[Any, Any, None]]:
@@ -165,6 +172,7 @@ class _Pull:
         if camera is not None:
             if event.phase == "start":
                 look_at = np.asarray(event.client.camera.look_at)
+                self._ahead = unit(look_at - camera)
                 self._ratio = depth_ratio(camera, look_at, grabbed, self._handle.position)
             grabbed = camera + self._ratio * (grabbed - camera)
             pointer = camera + self._ratio * (pointer - camera)
@@ -179,4 +187,5 @@ class _Pull:
             vertical=event.modifier == "shift",
             aside=event.button == "right",
             eye=camera,
+            ahead=self._ahead if self._ball else None,
         )

@@ -17,6 +17,7 @@ from app.scene.hatching import Hatching
 from app.scene.landmarks import Landmarks
 from app.scene.placing import Placing
 from app.scene.pulls import checked_point
+from app.scene.replay import Replay
 from app.scene.reproductions import Reproductions, Starts
 from app.scene.view import Eye
 from app.store import State
@@ -62,6 +63,7 @@ class Scene:
             Hatching(api),
             Starts(api, actions, clock, self._eye),
             Landmarks(api, actions, clock, self._eye),
+            Replay(api),
             Recording(api),
             HandBall(api, actions, clock, self._eye),
             Shortage(api),

@@ -413,7 +413,7 @@ def test_a_file_next_to_a_built_in_skill_opens_as_a_skill_of_its_own() -> None:
     desk = desk_of(taught(built_in=True))
     desk.offer_reading(inspect_bytes("mine.csv", RECORDING))
 
-    desk.accept_file("m", desk.offer.frame, 1.0)
+    desk.accept_file("m", desk.state().offer.frame, 1.0)
 
     assert (desk.store.document.title, len(desk.store.document.demonstrations)) == ("mine", 1)
 
@@ -421,7 +421,7 @@ def test_a_file_next_to_a_built_in_skill_opens_as_a_skill_of_its_own() -> None:
 def test_an_accepted_file_can_be_undone(desk: Desk, mouse: Mouse) -> None:
     before = desk.store.document
     desk.offer_reading(inspect_bytes("mine.csv", RECORDING))
-    desk.accept_file("m", desk.offer.frame, mouse.now)
+    desk.accept_file("m", desk.state().offer.frame, mouse.now)
 
     desk.undo(mouse.now)
 
@@ -430,8 +430,8 @@ def test_an_accepted_file_can_be_undone(desk: Desk, mouse: Mouse) -> None:
 
 def test_an_accepted_file_is_described_in_the_unit_that_was_chosen(desk: Desk, mouse: Mouse) -> None:
     desk.offer_reading(inspect_bytes("mine.csv", RECORDING))
-    assert desk.offer.unit == "m"
+    assert desk.state().offer.unit == "m"
 
-    desk.accept_file("mm", desk.offer.frame, mouse.now)
+    desk.accept_file("mm", desk.state().offer.frame, mouse.now)
 
     assert "read as mm" in desk.state().message

@@ -1,0 +1,132 @@
+"""Correcting by replay: from the button through the pulls to the answer.
+
+At most one replay runs and at most one correction waits. Both end cleanly whatever
+happens: nothing reaches the document but by `Amending.answer`, as one undo step.
+"""
+
+from typing import Final
+
+from app import compliance, correcting
+from app.actions import Drag
+from app.document import Document, View
+from app.model import Model
+from app.proposal import DISCARDED, FIRST_ANSWER, LOST, Pending, Proposal
+from app.replaying import Replaying, subject_of
+from app.stage import Stage
+from app.store import Progress, Store
+
+CHOOSE: Final = "There is nothing to replay yet. Choose a demonstration or a run."
+PULL_IT: Final = "Pull the hand where the motion should be otherwise; let go, and it eases back."
+ONLY_THE_HAND: Final = "While it replays only the hand can be pulled. Press Stop to work on something else."
+_FEELS: Final = {feel.name: feel for feel in compliance.FEELS}
+
+Said = tuple[str, bool]
+"""A sentence, and whether it says that something is wrong."""
+
+
+class Amending:
+    """The replay and the correction on one desk."""
+
+    def __init__(self, stage: Stage, store: Store) -> None:
+        self._stage, self._store = stage, store
+        self._replay: Replaying | None = None
+        self._pending: Pending | None = None
+
+    @property
+    def replays(self) -> bool:
+        """Whether a replay runs."""
+        return self._replay is not None
+
+    @property
+    def waits(self) -> bool:
+        """Whether a correction waits for its answer."""
+        return self._pending is not None
+
+    @property
+    def holds(self) -> str | None:
+        """Scene name of what is held in a replay."""
+        return "/hand" if self._replay is not None and self._replay.held else None
+
+    @property
+    def progress(self) -> Progress | None:
+        """How far the replay is."""
+        return None if self._replay is None else self._replay.progress()
+
+    @property
+    def proposal(self) -> Proposal | None:
+        """The correction that waits."""
+        return None if self._pending is None else self._pending.proposal
+
+    def shown(self, document: Document) -> Document:
+        """Give the document as the previewed choice would make it."""
+        return document if self._pending is None else self._pending.shown(document)
+
+    # --- a replay ----------------------------------------------------------------------
+
+    def start(self, view: View, model: Model, now: float) -> Said:
+        """Replay what the view names, unless a correction waits."""
+        if self.waits:
+            return FIRST_ANSWER, True
+        subject = subject_of(view.replay, model)
+        if subject is None:
+            return CHOOSE, True
+        self._stage.pause()
+        feel, speed = _FEELS[view.replay_feel], view.replay_speed
+        self._replay = Replaying(self._stage.arm, subject, self._stage.hand, now, feel=feel, speed=speed)
+        return PULL_IT, False
+
+    def drag(self, drag: Drag) -> Said | None:
+        """Pull the hand of the replay; nothing else can be pulled while it runs."""
+        replay = self._replay
+        if replay is None or drag.node != "/hand":
+            return (ONLY_THE_HAND, True) if drag.phase == "start" else None
+        replay.follow(drag)
+        self._stage.driver.pulled(replay.hand)
+        return (PULL_IT, False) if drag.phase == "start" else None
+
+    def tick(self, now: float) -> bool:
+        """Replay on; returns whether it is at its end."""
+        replay = self._replay
+        if replay is None:
+            return False
+        replay.advance(now)
+        self._stage.driver.pulled(replay.hand)
+        return replay.done
+
+    def end(self, now: float) -> Said | None:
+        """End the replay, if one runs, and offer what was corrected."""
+        replay, self._replay = self._replay, None
+        if replay is None:
+            return None
+        corrected = replay.finish(now)
+        self._stage.driver.pulled(replay.hand)
+        if corrected is None:
+            return correcting.NOTHING, False
+        return self.offer(correcting.proposed(replay.subject, corrected))
+
+    # --- a correction ------------------------------------------------------------------
+
+    def offer(self, proposal: Proposal) -> Said:
+        """Let a correction wait for its answer, and show what it would do."""
+        self._pending = Pending(proposal)
+        return f"{proposal.sentence} Choose in Fix what becomes of it.", False
+
+    def preview(self, choice: int) -> None:
+        """Show what another choice would do."""
+        if self._pending is not None:
+            self._pending.preview(choice)
+
+    def discard(self) -> Said | None:
+        """Forget the correction that waits, if there is one."""
+        pending, self._pending = self._pending, None
+        return None if pending is None else (DISCARDED, False)
+
+    def answer(self, choice: int | None, now: float) -> Said | None:
+        """Do what a choice says, as one undo step; None discards."""
+        pending = self._pending
+        if pending is None or choice is None or not 0 <= choice < len(pending.proposal.choices):
+            return self.discard()
+        chosen = pending.proposal.choices[choice]
+        kept = self._store.edit(chosen.apply, chosen.name, now=now)  # if it fails, it waits on
+        self._pending = None
+        return ("", False) if kept else (LOST, True)

@@ -1,0 +1,110 @@
+"""From what the hand did in a replay to what can be done with it: pure functions."""
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+from scipy.spatial.transform import (  # pyright: ignore[reportMissingTypeStubs]  # SciPy has none
+    Rotation,
+    Slerp,
+)
+
+from app import bending, edits, handpull
+from app.document import Document, FloatArray
+from app.proposal import Choice, Proposal
+from app.replaying import Corrected, Subject
+from gc_core import Constraint, Demonstration, Reproduction
+
+NOTHING: Final = "Nothing was corrected: the hand was not pulled during the replay."
+
+
+def proposed(subject: Subject, corrected: Corrected) -> Proposal:
+    """Say what was corrected, and offer what can be done with it.
+
+    A corrected demonstration replaces its original. A corrected run becomes a rule, or a demonstration that
+    joins the others.
+    """
+    path = subject.path
+    choices = (
+        (_replacing(subject, path, corrected),)
+        if isinstance(path, Demonstration)
+        else (_ruling(subject, path, corrected), _teaching(subject, path, corrected))
+    )
+    return Proposal(
+        title=f"Correction of {subject.name}",
+        sentence=f"You moved the hand by up to {bending.length(corrected.farthest)}.",
+        choices=choices,
+        among=subject.among,
+        before=path.positions,
+        after=corrected.positions,
+    )
+
+
+def as_demonstration(path: Demonstration | Reproduction, corrected: Corrected, name: str) -> Demonstration:
+    """Make a demonstration of a recording; what the hand held and how it was turned stays by its time."""
+    times = corrected.times - corrected.times[0]
+    index = np.clip(np.searchsorted(path.times, corrected.times, side="right") - 1, 0, len(path.times) - 1)
+    return Demonstration(
+        times,
+        corrected.positions,
+        orientations=None if path.orientations is None else _turned(path, path.orientations, corrected.times),
+        gripper=None if path.gripper is None else path.gripper[index],
+        name=name,
+    )
+
+
+def as_run(run: Reproduction, corrected: Corrected) -> Reproduction:
+    """Move a run, sample by sample, by what the hand was moved at that time."""
+    moved = corrected.positions - corrected.route
+    at = [np.interp(run.times, corrected.times, moved[:, axis]) for axis in range(3)]
+    return replace(run, positions=run.positions + np.stack(at, axis=1))
+
+
+def _replacing(subject: Subject, original: Demonstration, corrected: Corrected) -> Choice:
+    made = as_demonstration(original, corrected, original.name)
+
+    def apply(document: Document) -> Document:
+        for index, shown in enumerate(document.demonstrations):
+            if shown.demonstration is original:
+                return edits.replace_demonstration(document, index, made)
+        return document
+
+    return Choice(
+        "Accept",
+        f"This replaces {subject.name}, and the tube is learned anew.",
+        f"correct {subject.name}",
+        apply,
+    )
+
+
+def _ruling(subject: Subject, run: Reproduction, corrected: Corrected) -> Choice:
+    rule = Constraint.from_correction(run, as_run(run, corrected))
+
+    def apply(document: Document) -> Document:
+        # A rule is kept as if nothing had been moved; landmarks carry it along.
+        return edits.add_rule(document, subject.among.rule_taken_back(rule))
+
+    return Choice(
+        "Add a rule",
+        "All runs keep to your side of it from now on; what was taught stays as it is.",
+        f"add a rule from {subject.name}",
+        apply,
+    )
+
+
+def _teaching(subject: Subject, run: Reproduction, corrected: Corrected) -> Choice:
+    made = as_demonstration(run, corrected, f"Corrected {subject.name}")
+    kept = handpull.taken_back(made, subject.among)
+    return Choice(
+        "Teach it",
+        "It joins the demonstrations, and the tube is learned anew with it.",
+        f"teach the corrected {subject.name}",
+        lambda document: handpull.added(document, kept),
+    )
+
+
+def _turned(path: Demonstration | Reproduction, orientations: FloatArray, times: FloatArray) -> FloatArray:
+    """(T, 4) orientations w, x, y, z at other times, the shorter way between those that are known."""
+    known = Rotation.from_quat(orientations, scalar_first=True)
+    clipped = np.clip(times, path.times[0], path.times[-1])
+    return Slerp(path.times, known)(clipped).as_quat(scalar_first=True)

@@ -1,0 +1,84 @@
+"""Above the tabs: a correction, what can be done with it, and what each choice would change."""
+
+from typing import Final
+
+import numpy as np
+import viser
+
+from app.actions import Actions
+from app.binding import Changed, assign, on_choice
+from app.panels import words
+from app.proposal import CHANGED_BY, DISCARD, Proposal
+from app.store import State
+
+MOST: Final = 3
+"""Choices at most."""
+UNCHANGED: Final = "Nothing changes."
+SHOWN: Final = "✓ "
+
+
+class ProposalPanel:
+    """The chip that asks *Add a rule / Teach it / Discard*, one sentence each."""
+
+    def __init__(self, gui: viser.GuiApi, actions: Actions) -> None:
+        self._actions = actions
+        self._count = 0
+        self._box = gui.add_folder("Correction", visible=False)
+        with self._box:
+            self._said = gui.add_html("")
+            self._answers = gui.add_button_group("", (DISCARD,))
+            self._looks = gui.add_button_group(
+                "Show", (DISCARD,), visible=False, hint="What is shown as if it were chosen already."
+            )
+        on_choice(self._answers, self._answer)
+        on_choice(self._looks, actions.preview)
+        self._changed, self._effect = Changed(), Changed()
+
+    def draw(self, state: State) -> None:
+        """Ask, while a correction waits."""
+        proposal = state.proposal
+        if self._changed(proposal, state.model):
+            assign(self._box, visible=proposal is not None)
+            if proposal is not None:
+                self._ask(proposal, state)
+
+    def _ask(self, proposal: Proposal, state: State) -> None:
+        labels = tuple(choice.label for choice in proposal.choices[:MOST])
+        self._count = len(labels)
+        marked = tuple(SHOWN + label if i == proposal.previewed else label for i, label in enumerate(labels))
+        assign(self._box, label=proposal.title)
+        assign(self._said, content=words.note(asked(proposal, state)))
+        assign(self._answers, options=(*labels, DISCARD))
+        assign(self._looks, options=marked, visible=len(labels) > 1)
+
+    def _answer(self, place: int) -> None:
+        self._actions.answer(place if place < self._count else None)
+
+
+def asked(proposal: Proposal, state: State) -> str:
+    """Build what the chip says, as HTML: what happened, each choice, and what the shown one does to runs."""
+    choices = "".join(
+        f"<li><b>{words.escape(choice.label)}:</b> {words.escape(choice.sentence)}</li>"
+        for choice in proposal.choices
+    )
+    discard = f"<li><b>{DISCARD}:</b> {UNCHANGED}</li>"
+    listed = f'<ul style="margin:0.25rem 0;padding-left:1.1rem">{choices}{discard}</ul>'
+    return f"{words.escape(proposal.sentence)}{listed}{words.escape(effect(proposal, state))}"
+
+
+def effect(proposal: Proposal, state: State) -> str:
+    """Say how many of the shown runs the previewed choice changes, and by how much."""
+    before, after = proposal.among.runs, state.model.runs
+    if not before or len(before) != len(after):
+        return ""
+    moved = [
+        float(np.linalg.norm(a.reproduction.positions - b.reproduction.positions, axis=1).max())
+        if len(a.reproduction.positions) == len(b.reproduction.positions)
+        else np.inf
+        for a, b in zip(before, after, strict=True)
+    ]
+    count = sum(length > CHANGED_BY for length in moved)
+    if count == 0:
+        return "As shown now, no run changes."
+    by = f", by up to {words.cm(max(moved))}" if np.isfinite(max(moved)) else ""
+    return f"As shown now, {count} of {words.count(len(before), 'run')} changes{by}."
