@@ -1,4 +1,4 @@
-"""What an arm answers with: parts to draw, joint paths, distances, and why a hand is not where it is wanted."""
+"""What an arm answers with: parts to draw, joint paths, distances, and why a hand is not where it is due."""
 
 from __future__ import annotations
 

@@ -14,8 +14,8 @@ TRY: Final = "Try it with physics"
 SHOW: Final = "Show what happened"
 HIDE: Final = "Stop showing it"
 HOW: Final = (
-    "With physics the motors have limits, and what has a weight can be pushed and carried. The hand takes a "
-    "thing that is within 2 cm of its finger tips when it closes, and holds it as if bolted on until it opens."
+    "With physics the motors have limits, and what has a weight can be pushed and carried. The hand takes "
+    "a thing within 2 cm of its finger tips when it closes, and holds it as if bolted on until it opens."
 )
 STALE: Final = "The skill has changed since. Try it again."
 
