@@ -61,6 +61,8 @@ def how(model: Model) -> str:
         return ""
     few = len(anchors) <= MOST_LISTED
     between = listed([anchor.name for anchor in anchors]) if few else f"its {len(anchors)} landmarks"
+    if not len(registration.weights) and np.allclose(registration.linear, np.eye(3)):
+        return f"The tube is moved as a whole, with {between}."
     if len(anchors) == 1:
         turned = " and turned" if anchors[0].kind == "object" else ""
         return f"The tube is moved{turned} as a whole, with {between}."

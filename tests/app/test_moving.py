@@ -162,6 +162,13 @@ def test_how_the_tube_follows_is_said_for_one_two_and_more_landmarks() -> None:
     ]
 
 
+def test_landmarks_that_are_all_moved_alike_move_the_tube_as_a_whole() -> None:
+    document, by = moved(), ELSEWHERE - learn(taught()).anchors[1].now
+    document = edits.move_landmark(document, "start", learn(document).anchors[0].now + by)
+
+    assert bending.how(learn(document)) == "The tube is moved as a whole, with the start and the goal."
+
+
 def test_a_fold_names_the_landmark_that_made_it() -> None:
     said = bending.folds(learn(fold()))
 

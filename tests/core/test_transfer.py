@@ -11,6 +11,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from app.model import STIFFNESS
 from gc_core import GeneralizedCylinder, encode, generalize
 from gc_core.radius import GREATEST_SLOPE
 from gc_core.sections import SECTIONS
@@ -36,7 +37,9 @@ def tube(name: str, section: str) -> GeneralizedCylinder:
 
 @cache
 def moves(name: str, section: str) -> list[Moved]:
-    return [move(tube(name, section), seed) for seed in range(MOVES)]
+    """By the paper's map and by the app's, points and frames each."""
+    stiff = [0.0, 0.0, STIFFNESS, STIFFNESS]
+    return [move(tube(name, section), seed, stiffness=stiff[seed % 4]) for seed in range(MOVES)]
 
 
 @every_tube
