@@ -1,6 +1,6 @@
 """Tubes that move with landmarks: every promise holds after any move, and they go where people would go.
 
-Measured by `tests.measurements.transfer`, which makes docs/transfer.md with ten times as many moves, at
+Measured by `tests.measurements.transfer`, which makes docs/transfer.md with 25 times as many moves, at
 200 stations.
 """
 
@@ -21,7 +21,7 @@ from tests.measurements import geometry, runs
 from tests.measurements.carrying import OBJECT, STIFF, against_the_spline, carried, left_out
 from tests.measurements.transfer import Moved, built_in, move, skill, worst_jump
 
-MOVES = 20
+MOVES = 8
 MOTIONS = range(30_000, 30_020)
 """Seeds that nothing was chosen with."""
 
