@@ -13,6 +13,7 @@ from tyro.extras import SubcommandApp
 
 from app import commands
 from app.check import check
+from app.compare import compare
 from gc_core import GcError
 
 DESCRIPTION: Final = "Teach a robot arm a motion in the browser; `gc-teach` alone serves the app."
@@ -59,6 +60,7 @@ def serve(
 cli.command(commands.encode)
 cli.command(commands.reproduce)
 cli.command(check)
+cli.command(compare)
 
 
 def main(args: Sequence[str] | None = None) -> None:
