@@ -248,10 +248,11 @@ class Desk:
             pull = self._take_hand(drag.time, records=not drag.aside)
             self.stage.pause()
         else:
-            pull = gesture.pull_on(drag.node, drag.grabbed, self.model, self.view.pull_width)
+            pull = gesture.pull_on(drag.node, drag.grabbed, self.model, self.view.pull_width, drag.eye)
         if pull is None:
             return None
         self.say("")
+        self.look(thing=gesture.thing_held(drag.node))
         if drag.node.startswith("/start/"):
             self.stage.cue(int(drag.node.rpartition("/")[2]), self.model, playing=False)
         held = Grasp(pull, gesture.begin(drag), self.model, drag.time)

@@ -20,10 +20,17 @@ FloatArray: TypeAlias = NDArray[np.float64]
 SectionKind: TypeAlias = Literal["circle", "ellipse", "closed_spline"]
 Alignment: TypeAlias = Literal["time", "arc_length", "dtw"]
 LandmarkKind: TypeAlias = Literal["start", "goal", "via", "obstacle", "object"]
+ThingKind: TypeAlias = Literal["box", "ball", "cylinder", "ring"]
 
 SECTION_KINDS: Final[tuple[SectionKind, ...]] = ("circle", "ellipse", "closed_spline")
 ALIGNMENTS: Final[tuple[Alignment, ...]] = ("time", "arc_length", "dtw")
 LANDMARK_KINDS: Final[tuple[LandmarkKind, ...]] = ("start", "goal", "via", "obstacle", "object")
+THING_KINDS: Final[tuple[Literal["box"], Literal["ball"], Literal["cylinder"], Literal["ring"]]] = (
+    "box",
+    "ball",
+    "cylinder",
+    "ring",
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,5 +137,7 @@ class View:
     """Of that replay, as a multiple of the taught one: 0.25 .. 1."""
     replay_feel: Feel = "medium"
     """How hard the hand is to pull aside then."""
-    placing: LandmarkKind | None = None
-    """The next click in the scene places a landmark of this kind."""
+    placing: LandmarkKind | ThingKind | None = None
+    """The next click in the scene places a landmark, or a thing, of this kind."""
+    thing: str = ""
+    """Name of the thing that is worked on: it has handles to size it by."""

@@ -12,9 +12,10 @@ from typing import Final
 
 import numpy as np
 
-from app import edits
+from app import edits, measures
 from app.actions import Drag
 from app.document import Document, FloatArray
+from app.measures import TABLE
 from app.model import Model
 from gc_core import Constraint, Demonstration, soft_correction
 
@@ -22,8 +23,12 @@ GRACE: Final = 0.15
 """A pull that ends and begins again on the same thing within this time is one [s]."""
 MAGNET: Final = 0.08
 """A place attracts the depth of what passes it nearer than this, as seen by the camera [m]."""
-TABLE: Final = 0.0
-"""Height of the table top [m]."""
+SIDEWAYS: Final = 1e-6
+"""A pull that lifts less than this is along the table [m]."""
+LANDING: Final = 0.01
+"""What is lowered to this height above the table is put on it [m]."""
+FLATTEST: Final = 0.1
+"""A handle that is seen more from its end than this moves with the pointer no more: sine squared [-]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +105,9 @@ class Pull:
     """The edit, given the displacement [m]."""
 
 
-def pull_on(node: str, grabbed: FloatArray, model: Model, width: float) -> Pull | None:
+def pull_on(
+    node: str, grabbed: FloatArray, model: Model, width: float, eye: FloatArray | None = None
+) -> Pull | None:
     """Find out what a pull means from what was grabbed.
 
     Parameters
@@ -113,6 +120,8 @@ def pull_on(node: str, grabbed: FloatArray, model: Model, width: float) -> Pull 
         What is shown.
     width : float
         How far along a line a pull reaches to either side [m].
+    eye : (3,) array, optional
+        The camera [m], where it is known.
 
     Returns
     -------
@@ -124,6 +133,15 @@ def pull_on(node: str, grabbed: FloatArray, model: Model, width: float) -> Pull 
         return _pull_landmark(node, which, model)
     if kind == "turns":
         return _pull_turn(node, which, grabbed, model)
+    if kind == "obstacles":
+        return _pull_thing(node, which, model)
+    if kind == "sizes":
+        return _pull_side(node, which, grabbed, model, eye)
+    return _pull_numbered(node, grabbed, model, width)
+
+
+def _pull_numbered(node: str, grabbed: FloatArray, model: Model, width: float) -> Pull | None:
+    kind, _, which = node.strip("/").partition("/")
     index = int(which) if which.isdecimal() else -1
     if kind == "start" and 0 <= index < len(model.runs):
         return _pull_start(node, index, model)
@@ -132,6 +150,12 @@ def pull_on(node: str, grabbed: FloatArray, model: Model, width: float) -> Pull 
     if kind == "reproductions" and 0 <= index < len(model.runs):
         return _pull_reproduction(node, index, grabbed, model, width)
     return None
+
+
+def thing_held(node: str) -> str:
+    """Name the thing whose body or handle a node is; empty for anything else."""
+    kind, _, rest = node.strip("/").partition("/")
+    return rest if kind == "obstacles" else rest.rpartition("/")[0] if kind == "sizes" else ""
 
 
 def _pull_landmark(node: str, name: str, model: Model) -> Pull | None:
@@ -155,6 +179,43 @@ def _pull_turn(node: str, name: str, grabbed: FloatArray, model: Model) -> Pull 
         return edits.turn_landmark(document, name, turn + np.array([0.0, 0.0, angle]))
 
     return Pull(node, f"turn {name}", apply)
+
+
+def _pull_thing(node: str, name: str, model: Model) -> Pull | None:
+    thing = next((thing for thing in model.source.things if thing.name == name), None)
+    if thing is None:
+        return None
+    begin, underside = np.asarray(thing.position), measures.underside(thing)
+
+    def apply(document: Document, by: FloatArray) -> Document:
+        place = begin + by
+        if abs(by[2]) > SIDEWAYS and underside + by[2] < LANDING:
+            place[2] = begin[2] - underside
+        return edits.move_thing(document, name, place)
+
+    return Pull(node, f"move {name}", apply)
+
+
+def _pull_side(
+    node: str, which: str, grabbed: FloatArray, model: Model, eye: FloatArray | None
+) -> Pull | None:
+    """A handle slides along its own line, and stays beside the pointer as it is seen."""
+    name, _, number = which.rpartition("/")
+    thing = next((thing for thing in model.source.things if thing.name == name), None)
+    if thing is None or not number.isdecimal() or int(number) >= len(measures.measures(thing)):
+        return None
+    index = int(number)
+    along = measures.handles(thing)[index].along
+    seen = along
+    if eye is not None:
+        sight = (grabbed - eye) / max(float(np.linalg.norm(grabbed - eye)), 1e-9)
+        seen = along - (along @ sight) * sight
+    rate = seen / max(float(seen @ seen), FLATTEST)
+
+    def apply(document: Document, by: FloatArray) -> Document:
+        return edits.pull_thing_side(document, name, index, float(by @ rate))
+
+    return Pull(node, f"size {name}", apply)
 
 
 def _pull_start(node: str, index: int, model: Model) -> Pull:

@@ -60,11 +60,11 @@ class _Seat:
         self.searched: tuple[object, str] | None = None
         """What was asked last about a hand that is not there, and the answer: a held pointer asks again."""
 
-    def use(self, conditions: Conditions) -> Solver:
-        """Give the solver, heeding conditions."""
+    def use(self, conditions: Conditions | None = None) -> Solver:
+        """Give the solver, heeding conditions; None: those of last time, which is enough for poses."""
         if self.solver is None:
             raise ArmClosedError("Jaco")
-        return self.solver.heed(conditions)
+        return self.solver if conditions is None else self.solver.heed(conditions)
 
     def close(self) -> None:
         """Give the solver back to the pool."""
@@ -149,12 +149,12 @@ class Jaco:
 
     def tool_pose(self, joints: npt.ArrayLike) -> FloatArray:
         """Give the (4, 4) pose of the grip between the fingers; it points along its z axis."""
-        return self._use().frames(self._joints(joints), (urdf.TOOL,))[0]
+        return self._seat.use().frames(self._joints(joints), (urdf.TOOL,))[0]
 
     def link_poses(self, joints: npt.ArrayLike, gripper: float) -> Mapping[str, FloatArray]:
         """Give the (4, 4) pose of every drawn link; the fingers turn with the gripper."""
         turned = urdf.rotation_about(2, _CLOSED * gripper_of(gripper))
-        frames = self._use().frames(self._joints(joints), urdf.MOVING_LINKS)
+        frames = self._seat.use().frames(self._joints(joints), urdf.MOVING_LINKS)
         poses = {urdf.BASE_LINK: np.eye(4), **dict(zip(urdf.MOVING_LINKS, frames, strict=True))}
         mounts = self._kinematics.mounts
         for finger in urdf.FINGERS:

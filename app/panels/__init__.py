@@ -28,6 +28,7 @@ from app.panels.slice import SlicePanel
 from app.panels.smoothing import SmoothingPanel
 from app.panels.starts import StartsPanel
 from app.panels.status import StatusPanel
+from app.panels.things import ThingsPanel
 from app.panels.timeline import TimelinePanel
 from app.panels.tries import TriesPanel
 from app.panels.verdict import VerdictPanel
@@ -105,6 +106,7 @@ def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]
             TriesPanel(gui, actions),
             PlacingPanel(gui, actions),
             SmoothingPanel(gui, actions),
+            ThingsPanel(gui, actions),
         )
     with tabs.add_tab("Fix", viser.Icon.TOOL):
         fix: tuple[Panel, ...] = (ReplayPanel(gui, actions), RulesPanel(gui, actions))

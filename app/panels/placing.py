@@ -9,7 +9,7 @@ import viser
 from app import edits, placing
 from app.actions import Actions
 from app.binding import Changed, assign, on_choice
-from app.document import LandmarkKind
+from app.document import LANDMARK_KINDS, LandmarkKind, View
 from app.panels import words
 from app.store import State
 
@@ -48,13 +48,14 @@ class PlacingPanel:
         """Offer what can be added, and ask where."""
         self._state = state
         present = {place.kind for place in state.document.landmarks}
-        if not self._changed(state.document.landmarks, state.view.placing, state.model.cylinder is None):
+        waiting = waits(state.view)
+        if not self._changed(state.document.landmarks, waiting, state.model.cylinder is None):
             return
         self._kinds = tuple(kind for kind in KINDS if kind not in ("start", "goal") or kind not in present)
         full = len(state.document.landmarks) >= edits.MOST_LANDMARKS
         assign(self._choice, options=tuple(KINDS[kind] for kind in self._kinds), visible=not full)
-        assign(self._where, visible=state.view.placing is not None)
-        assign(self._what, content=words.note(words.escape(FULL if full else asked(state.view.placing))))
+        assign(self._where, visible=waiting is not None)
+        assign(self._what, content=words.note(words.escape(FULL if full else asked(waiting))))
 
     def _choose(self, option: int) -> None:
         kind = self._kinds[option]
@@ -64,7 +65,7 @@ class PlacingPanel:
             self._actions.look(placing=kind)
 
     def _answer(self, option: int) -> None:
-        kind = None if self._state is None else self._state.view.placing
+        kind = None if self._state is None else waits(self._state.view)
         if option == 0 and kind is not None:
             self._add(kind)
         self._actions.look(placing=None)
@@ -74,6 +75,11 @@ class PlacingPanel:
             place = placing.beside(self._state.model, self._state.playback, kind)
             change = partial(edits.add_landmark, kind=kind, place=place)
             self._actions.edit(change, f"add a landmark ({KINDS[kind].lower()})")
+
+
+def waits(view: View) -> LandmarkKind | None:
+    """Say what kind of landmark waits for its place."""
+    return next((kind for kind in LANDMARK_KINDS if kind == view.placing), None)
 
 
 def asked(kind: LandmarkKind | None) -> str:

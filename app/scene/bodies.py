@@ -1,4 +1,4 @@
-"""What landmarks look like: bodies about the origin, each face with corners of its own where it is flat."""
+"""What landmarks and things look like: bodies about the origin, with corners for each flat face."""
 
 from functools import cache
 from typing import Final
@@ -27,8 +27,36 @@ def ball(radius: float, around: int = 32, rings: int = 17) -> tuple[Vertices, Fa
 
 def box(half: float, rotation: FloatArray) -> tuple[Vertices, Faces]:
     """A cube of ``2 * half`` [m], turned by a matrix (3, 3)."""
-    corners = half * _CORNERS @ rotation.T
+    return cuboid(np.full(3, 2.0 * half), rotation)
+
+
+def cuboid(size: FloatArray, rotation: FloatArray) -> tuple[Vertices, Faces]:
+    """A box with edges (3,) [m], turned by a matrix (3, 3)."""
+    corners = (0.5 * size * _CORNERS) @ rotation.T
     return corners[np.array(_SIDES).ravel()].astype(np.float32), _BOX_FACES
+
+
+def cuboid_edges(size: FloatArray) -> FloatArray:
+    """(12, 2, 3) the edges of a box [m]."""
+    corners = 0.5 * size * _CORNERS
+    apart = np.count_nonzero(_CORNERS[:, None] != _CORNERS[None], axis=2)
+    first, second = np.nonzero(np.triu(apart == 1))
+    return np.stack([corners[first], corners[second]], axis=1)
+
+
+def rod(radius: float, length: float, sides: int = 32) -> tuple[Vertices, Faces]:
+    """A solid cylinder along z with two lids [m]."""
+    ring, high = circle(radius, sides), np.array([0.0, 0.0, 0.5 * length])
+    lid, faces = disc(radius, sides)
+    top = (lid + high).astype(np.float32), faces
+    bottom = (lid - high).astype(np.float32), faces[:, ::-1]
+    return together(tube_mesh(np.stack([ring - high, ring + high])), top, bottom)
+
+
+def hoop(radius: float, height: float = 0.0, sides: int = 48) -> FloatArray:
+    """(sides, 2, 3) a circle about z as segments [m]."""
+    ring = circle(radius, sides) + np.array([0.0, 0.0, height])
+    return np.stack([ring, np.roll(ring, -1, axis=0)], axis=1)
 
 
 def post(radius: float, low: float, high: float, sides: int = 32) -> tuple[Vertices, Faces]:

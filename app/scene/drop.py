@@ -5,7 +5,8 @@ from typing import Final
 import numpy as np
 import viser
 
-from app.document import FloatArray
+from app import measures
+from app.document import FloatArray, Shape
 from app.scene.geometry import disc
 from app.scene.nodes import Label, Line, Mesh
 from app.scene.polyline import dashes
@@ -13,6 +14,8 @@ from app.scene.style import GUIDE, SHADOW
 from app.store import State
 
 SHADOW_RADIUS: Final = 0.022
+STANDING: Final = 0.002
+"""Lower than this above the table a thing stands on it [m]."""
 _ABOVE_TABLE: Final = np.array([0.0, 0.0, 0.0015])
 """The shadow floats so high that the table does not flicker through it [m]."""
 
@@ -46,7 +49,10 @@ _SHADOW: Final = disc(SHADOW_RADIUS)
 
 
 def dragged_place(state: State) -> FloatArray | None:
-    """(3,) where the dragged hand, start or landmark is [m]; None for lines and while nothing is dragged."""
+    """(3,) where the dragged hand, start or landmark is, or the underside of a thing [m].
+
+    None for lines, for a thing that stands on the table, and while nothing is dragged.
+    """
     name = state.dragging or ""
     if name == "/hand":
         return state.hand.position
@@ -55,4 +61,12 @@ def dragged_place(state: State) -> FloatArray | None:
         return state.model.runs[int(rest)].start
     if kind == "landmarks":
         return next((anchor.now for anchor in state.model.anchors if anchor.name == rest), None)
+    if kind == "obstacles":
+        return next((_below(thing) for thing in state.document.things if thing.name == rest), None)
     return None
+
+
+def _below(thing: Shape) -> FloatArray | None:
+    x, y, _ = thing.position
+    height = measures.underside(thing)
+    return np.array([x, y, height]) if height > STANDING else None

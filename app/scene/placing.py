@@ -1,4 +1,4 @@
-"""A click that places a landmark: on the tube if it is meant, else on the table."""
+"""A click that places a landmark or a thing: on the tube if it is meant, else on the table."""
 
 from typing import Any, Final
 
@@ -7,7 +7,7 @@ import viser
 
 from app import edits, placing
 from app.actions import Actions
-from app.document import Document, FloatArray, LandmarkKind, Place
+from app.document import THING_KINDS, Document, FloatArray, LandmarkKind, Place, ThingKind
 from app.model import Model
 from app.scene.polyline import nearest_to_ray
 from app.scene.pulls import checked_point
@@ -20,7 +20,7 @@ TABLE: Final = 1.2
 
 
 class Placing:
-    """Listens for a click in the scene while a landmark waits for its place."""
+    """Listens for a click in the scene while a landmark or a thing waits for its place."""
 
     def __init__(self, api: viser.SceneApi, actions: Actions) -> None:
         self._api, self._actions = api, actions
@@ -46,7 +46,14 @@ class Placing:
         if state is None or kind is None or origin is None or direction is None or not np.any(direction):
             return
         point = aimed_at(state.model, kind, origin, direction / np.linalg.norm(direction))
-        if point is None:
+        if point is not None:
+            self._place(state, kind, point)
+
+    def _place(self, state: State, kind: LandmarkKind | ThingKind, point: FloatArray) -> None:
+        if kind in THING_KINDS:
+            name = edits.new_thing_name(state.document, kind)
+            self._actions.edit(lambda d: edits.add_thing(d, kind, point), f"add {name}")
+            self._actions.look(placing=None, thing=name)
             return
         place = placing.placed(state.model, point)
         self._actions.edit(lambda d: _added(d, kind, place), f"add a landmark ({edits.KIND_NAMES[kind]})")
@@ -54,15 +61,15 @@ class Placing:
 
 
 def aimed_at(
-    model: Model, kind: LandmarkKind, origin: FloatArray, direction: FloatArray
+    model: Model, kind: LandmarkKind | ThingKind, origin: FloatArray, direction: FloatArray
 ) -> FloatArray | None:
     """Find the point that somebody who looks along a ray means.
 
     Parameters
     ----------
     model : Model
-    kind : {"via", "obstacle", "object", "start", "goal"}
-        Obstacles and objects stand on the table wherever one sees it.
+    kind : {"via", "obstacle", "object", "start", "goal", "box", "ball", "cylinder", "ring"}
+        Obstacles, objects and things stand on the table wherever one sees it.
     origin, direction : (3,) array
         Of the ray; the direction has length 1 [m].
 
@@ -78,7 +85,7 @@ def aimed_at(
         on_ray = origin + max(float((nearest - origin) @ direction), 0.0) * direction
         if kind == "via" and float(np.linalg.norm(nearest - on_ray)) <= NEAR:
             return nearest
-    height = 0.0 if kind == "via" else placing.HALF_AN_OBJECT
+    height = 0.0 if kind == "via" or kind in THING_KINDS else placing.HALF_AN_OBJECT
     if direction[2] < -1e-3:
         hit = origin + direction * ((height - origin[2]) / direction[2])
         if float(np.abs(hit[:2]).max()) <= TABLE:

@@ -80,9 +80,10 @@ def bind_pull(
     aside
         Whether the right button pulls too.
     level
-        Whether the pointer is drawn along the line of sight to the height of what was grabbed.
+        Whether the pointer is drawn along the line of sight to the height of what was grabbed; not with
+        Shift, which means the height.
     """
-    pull = _Pull(handle, actions, clock, ball or level, level)
+    pull = _Pull(handle, actions, clock, ball, level)
     for button in ("left", "right") if aside else ("left",):
         for modifier in (None, "shift"):
             handle.on_drag(button, modifier=modifier)(pull.callback())
@@ -168,16 +169,16 @@ class _Pull:
         grabbed, pointer = checked_point(event.start_position), checked_point(event.end_position)
         if grabbed is None or pointer is None:
             return None
-        camera = checked_point(event.client.camera.position) if self._ball else None
-        if camera is not None:
+        camera = checked_point(event.client.camera.position) if self._ball or self._level else None
+        if camera is not None and self._ball:
             if event.phase == "start":
                 look_at = np.asarray(event.client.camera.look_at)
                 self._ahead = unit(look_at - camera)
                 self._ratio = depth_ratio(camera, look_at, grabbed, self._handle.position)
             grabbed = camera + self._ratio * (grabbed - camera)
             pointer = camera + self._ratio * (pointer - camera)
-            if self._level:
-                pointer = levelled(camera, pointer, float(grabbed[2]))
+        if camera is not None and self._level and event.modifier != "shift":
+            pointer = levelled(camera, pointer, float(grabbed[2]))
         return Drag(
             node=self._handle.name,
             phase=event.phase,

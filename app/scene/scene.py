@@ -19,6 +19,7 @@ from app.scene.placing import Placing
 from app.scene.pulls import checked_point
 from app.scene.replay import Replay
 from app.scene.reproductions import Reproductions, Starts
+from app.scene.things import Things
 from app.scene.view import Eye
 from app.store import State
 
@@ -64,6 +65,7 @@ class Scene:
             Starts(api, actions, clock, self._eye),
             Landmarks(api, actions, clock, self._eye),
             Replay(api),
+            Things(api, actions, clock),
             Recording(api),
             HandBall(api, actions, clock, self._eye),
             Shortage(api),

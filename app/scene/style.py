@@ -19,6 +19,11 @@ REFINED: Final[Color] = (26, 158, 115)
 FREE: Final[Color] = (120, 126, 136)
 LANDMARK: Final[Color] = (242, 186, 26)
 LANDMARK_GHOST: Final[Color] = (247, 222, 158)
+THING: Final[Color] = (150, 128, 108)
+"""What stands in the way."""
+CARRIED: Final[Color] = (128, 146, 128)
+"""What can be pushed and carried."""
+THING_EDGE: Final[Color] = (74, 62, 52)
 OBJECT_AXES: Final[tuple[Color, Color, Color]] = ((200, 40, 40), (30, 140, 60), (40, 80, 200))
 """Of an object's own x, y and z."""
 HAND: Final[Color] = (92, 104, 122)
@@ -49,6 +54,8 @@ LANDMARK_RADIUS: Final = 0.030
 VIA_RADIUS: Final = 0.018
 OBJECT_HALF: Final = 0.030
 """Half the side of an object's box, and the radius of an obstacle [m]."""
+HANDLE_RADIUS: Final = 0.011
+"""Of the balls by which a thing is sized."""
 GHOST_RADIUS: Final = 0.014
 PICK_RADIUS: Final = 0.010
 """How near to a line the pointer has to be [m]."""
