@@ -9,7 +9,8 @@ import numpy as np
 from app.actions import Drag
 from app.arm import PlanarArm
 from app.desk import Desk
-from app.document import Document, FloatArray, Place, Rule, Settings, Shown, View
+from app.document import Box, Cylinder, Document, FloatArray, Place, Rule, Settings, Shape, Shown, View
+from app.measures import handles
 from app.model import Model
 from app.planning import plan_run
 from app.store import Plan
@@ -65,6 +66,10 @@ def furnished() -> Document:
         landmarks=(Place("start"), goal, cup),
         starts=document.starts,
         rules=(rule(),),
+        things=(
+            Box("crate", (0.3, -0.2, 0.1), (0.1, 0.2, 0.2)),
+            Cylinder("can", (0.4, 0.4, 0.3), 0.03, 0.1, mass=0.2),
+        ),
     )
 
 
@@ -138,11 +143,21 @@ def place_of(node: str, model: Model, hand: FloatArray) -> FloatArray:
         return model.runs[int(which)].start
     if kind == "landmarks":
         return next(anchor.now for anchor in model.anchors if anchor.name == which)
+    if kind == "obstacles":
+        return np.array(thing_of(model, which).position)
+    if kind == "sizes":
+        name, _, number = which.rpartition("/")
+        return handles(thing_of(model, name))[int(number)].place
     if kind == "demonstrations":
         path = model.source.demonstrations[int(which)].demonstration.positions
     else:
         path = model.runs[int(which)].reproduction.positions
     return path[len(path) // 2]
+
+
+def thing_of(model: Model, name: str) -> Shape:
+    """The thing of a name."""
+    return next(thing for thing in model.source.things if thing.name == name)
 
 
 def desk_of(document: Document | None = None) -> Desk:

@@ -12,6 +12,7 @@ import pytest
 from app import edits
 from app.document import Document, Place
 from app.edits import EditError
+from app.measures import measures, turn_of
 from gc_core import GcError, same_content
 from tests.app.makers import demonstration, furnished, rule, taught
 
@@ -45,10 +46,18 @@ CHANGES: dict[str, Edit] = {
     "enable_rule": lambda d: edits.enable_rule(d, 0, False),
     "rename_rule": lambda d: edits.rename_rule(d, 0, "Low ceiling"),
     "delete_rule": lambda d: edits.delete_rule(d, 0),
+    "add_thing": lambda d: edits.add_thing(d, "ring", ELSEWHERE),
+    "move_thing": lambda d: edits.move_thing(d, "crate", ELSEWHERE),
+    "turn_thing": lambda d: edits.turn_thing(d, "crate", (0.0, 0.0, 1.0)),
+    "resize_thing": lambda d: edits.resize_thing(d, "crate", (0.1, 0.2, 0.3)),
+    "pull_thing_side": lambda d: edits.pull_thing_side(d, "crate", 1, 0.02),
+    "weigh_thing": lambda d: edits.weigh_thing(d, "crate", 0.2),
+    "rename_thing": lambda d: edits.rename_thing(d, 0, "red box"),
+    "remove_thing": lambda d: edits.remove_thing(d, "crate"),
 }
 """One real change by every public edit."""
 
-MAKERS = {"edit", "point", "skill_of"}
+MAKERS = {"edit", "new_thing_name", "point", "skill_of"}
 """Public functions that are no edits."""
 
 SAME: dict[str, Edit] = {
@@ -71,6 +80,12 @@ SAME: dict[str, Edit] = {
     "set_smoothing": lambda d: edits.set_smoothing(d, d.smoothing),
     "enable_rule": lambda d: edits.enable_rule(d, 0, True),
     "rename_rule": lambda d: edits.rename_rule(d, 0, f" {d.rules[0].name} "),
+    "move_thing": lambda d: edits.move_thing(d, "crate", d.things[0].position),
+    "turn_thing": lambda d: edits.turn_thing(d, "crate", turn_of(d.things[0].wxyz)),
+    "resize_thing": lambda d: edits.resize_thing(d, "crate", measures(d.things[0])),
+    "pull_thing_side": lambda d: edits.pull_thing_side(d, "crate", 1, 0.0),
+    "weigh_thing": lambda d: edits.weigh_thing(d, "crate", 0.0),
+    "rename_thing": lambda d: edits.rename_thing(d, 0, " crate "),
 }
 """Edits that ask for what is already so."""
 
@@ -103,6 +118,23 @@ NONSENSE: dict[str, Edit] = {
     "a turn that is not a number": lambda d: edits.turn_landmark(d, "cup", (0.0, 0.0, float("nan"))),
     "too much smoothing": lambda d: edits.set_smoothing(d, 7.0),
     "a rule that is not there": lambda d: edits.enable_rule(d, 3, False),
+    "an unknown kind of thing": lambda d: edits.add_thing(d, "cloud", ELSEWHERE),
+    "a thing beyond all reach": lambda d: edits.add_thing(d, "box", 100 * ELSEWHERE),
+    "moving an unknown thing": lambda d: edits.move_thing(d, "moon", ELSEWHERE),
+    "removing an unknown thing": lambda d: edits.remove_thing(d, "moon"),
+    "a place that is not a number": lambda d: edits.move_thing(d, "crate", np.full(3, np.nan)),
+    "a thing that is turned by two angles": lambda d: edits.turn_thing(d, "crate", (0.0, 1.0)),
+    "a thing turned by no number": lambda d: edits.turn_thing(d, "crate", (0.0, 0.0, float("nan"))),
+    "a box of two measures": lambda d: edits.resize_thing(d, "crate", (0.1, 0.1)),
+    "a box as thin as nothing": lambda d: edits.resize_thing(d, "crate", (0.1, 0.0, 0.1)),
+    "a box as large as a house": lambda d: edits.resize_thing(d, "crate", (0.1, 9.0, 0.1)),
+    "a measure that is not a number": lambda d: edits.resize_thing(d, "crate", (0.1, float("nan"), 0.1)),
+    "a fourth side of a box": lambda d: edits.pull_thing_side(d, "crate", 3, 0.1),
+    "a thing that weighs less than nothing": lambda d: edits.weigh_thing(d, "crate", -0.1),
+    "a thing of no weight at all": lambda d: edits.weigh_thing(d, "crate", float("nan")),
+    "a thing with a stroke in its name": lambda d: edits.rename_thing(d, 0, "a/b"),
+    "a name that another thing has": lambda d: edits.rename_thing(d, 0, "can"),
+    "a name for no thing": lambda d: edits.rename_thing(d, 7, "box"),
 }
 
 
