@@ -154,7 +154,7 @@ def learn(document: Document, previous: Model | None = None, *, coarse: bool = F
     model = Model(document, demonstrations, coarse=coarse)
     try:
         model = _encode(model, former)
-        model = replace(model, anchors=_anchors(model))
+        model = replace(model, anchors=_anchors(model, former))
         model = _generalize(model, former, coarse=coarse)
         return _reproduce(model, former)
     except GcError as error:
@@ -213,8 +213,12 @@ def _generalize(model: Model, former: Model, *, coarse: bool) -> Model:
     return replace(model, registration=registration, cylinder=cylinder, hasty=coarse)
 
 
-def _anchors(model: Model) -> tuple[Anchor, ...]:
-    """Give every landmark a position, from the ends of the directrix where it has none."""
+def _anchors(model: Model, former: Model) -> tuple[Anchor, ...]:
+    """Give every landmark a position, from the ends of the directrix where it has none.
+
+    One that stands where it stood is the same object as before, so that it is not drawn again.
+    """
+    known = {anchor.name: anchor for anchor in former.anchors}
     ends: dict[str, FloatArray] = {}
     if model.taught is not None:
         ends = {"start": model.taught.directrix[0], "goal": model.taught.directrix[-1]}
@@ -223,7 +227,9 @@ def _anchors(model: Model) -> tuple[Anchor, ...]:
         taught = place.taught if place.taught is not None else ends.get(place.kind)
         if taught is not None:
             now = place.now if place.now is not None else taught
-            anchors.append(Anchor(place.name, taught, now, place.kind, place.turn))
+            anchor = Anchor(place.name, taught, now, place.kind, place.turn)
+            before = known.get(place.name, anchor)
+            anchors.append(before if same_anchors((before,), (anchor,)) else anchor)
     return tuple(anchors)
 
 

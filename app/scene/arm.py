@@ -12,6 +12,7 @@ import viser
 from app.arm.protocol import Arm
 from app.document import FloatArray
 from app.scene.geometry import quaternions
+from app.scene.nodes import move, turn
 from app.store import State
 
 STILL: Final = 1e-4
@@ -43,9 +44,9 @@ class ArmFrames:
         wxyz = quaternions(poses[:, :3, :3])
         for i, frame in enumerate(self._frames.values()):
             if turned[i]:
-                frame.wxyz = wxyz[i]
+                turn(frame, wxyz[i])
             if moved[i]:
-                frame.position = poses[i, :3, 3]
+                move(frame, poses[i, :3, 3])
         drawn = (turned | moved)[:, None, None]
         self._poses = np.where(drawn, poses, self._poses)
 

@@ -10,7 +10,7 @@ import pytest
 
 from app import edits
 from app.document import Document, Place, Settings, Shown
-from app.model import learn
+from app.model import COARSE_ANGLES, learn
 from gc_core import Constraint, Demonstration, GcError, same_content
 from tests.app.makers import demonstration, furnished, rule, taught
 from tests.app.test_edits import CHANGES
@@ -64,6 +64,29 @@ def test_moving_a_landmark_reuses_what_was_taught() -> None:
 
     assert model.taught is former.taught
     assert model.cylinder is not former.cylinder
+
+
+def test_a_landmark_that_is_not_moved_is_the_same_object_as_before() -> None:
+    former = learn(taught())
+
+    model = learn(edits.move_landmark(former.source, "goal", np.array([0.6, -0.2, 0.3])), former)
+
+    kept = {anchor.name: anchor for anchor in former.anchors}
+    assert [anchor.name for anchor in model.anchors if anchor is not kept[anchor.name]] == ["goal"]
+
+
+def test_the_preview_of_a_moved_landmark_runs_within_a_millimetre_of_what_is_learned() -> None:
+    former = learn(taught())
+    document = edits.move_landmark(
+        former.source, "goal", former.anchors[-1].now + np.array([0.05, -0.1, 0.05])
+    )
+
+    preview, learned = learn(document, former, coarse=True), learn(document, former)
+
+    assert len(preview.cylinder.angles) == COARSE_ANGLES
+    for rough, run in zip(preview.runs, learned.runs, strict=True):
+        away = rough.reproduction.positions - run.reproduction.positions
+        assert np.linalg.norm(away, axis=1).max() < 0.001
 
 
 def test_switching_a_rule_reuses_the_free_run() -> None:

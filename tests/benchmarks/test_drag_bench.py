@@ -1,6 +1,6 @@
 """The whole work of one drag update, and how soon a tab has the answer.
 
-Goal: a median under 15 ms for servo, learning at 200 stations from five demonstrations, reproduction,
+Goal: a median and a 95th percentile under 15 ms for servo, learning at 200 stations from five demonstrations, reproduction,
 drawing and messages. One drag sends an event each 50 ms; the hand moves at 0.2 m/s.
 """
 
@@ -12,7 +12,7 @@ import sys
 import threading
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +24,7 @@ from app import files, skills, viewers
 from app.actions import Drag
 from app.arm import Jaco
 from app.desk import Desk
-from app.document import Document, FloatArray, Shown
+from app.document import Document, FloatArray, Place, Shown
 from app.pauses import avoid_pauses
 from app.resources import static_folder
 from app.viewers import Viewer
@@ -50,6 +50,17 @@ def reaching(n_samples: int) -> Document:
     return replace(document, demonstrations=shown)
 
 
+def with_frame(document: Document) -> Document:
+    """Two landmarks more: a way point, and an object that was turned, which acts through seven points."""
+    way = document.demonstrations[0].demonstration.positions
+    third, two_thirds = way[len(way) // 3], way[2 * len(way) // 3]
+    more = (
+        Place("way point", third, third, "via"),
+        Place("box", two_thirds, two_thirds, "object", np.array([0.0, 0.0, 0.3])),
+    )
+    return replace(document, landmarks=(*document.landmarks, *more))
+
+
 def resampled(demonstration: Demonstration, n_samples: int) -> Demonstration:
     times = np.linspace(0.0, demonstration.times[-1], n_samples)
     columns = [np.interp(times, demonstration.times, column) for column in demonstration.positions.T]
@@ -73,6 +84,8 @@ class Puller:
     node: str
     now: float = 100.0
     left: int = 0
+    worked: list[float] = field(default_factory=list[float])
+    """Processor time of the session's thread for each update [s]: others on the machine disturb it less."""
 
     def one_event(self) -> tuple[tuple[Drag], dict[str, object]]:
         """The next event of the pull; a pull of 60 events is let go, undone, and begun again."""
@@ -84,8 +97,10 @@ class Puller:
 
     def update(self, drag: Drag) -> None:
         """What the session does with it."""
+        began = time.thread_time()
         self.desk.drag(drag)
         self.viewer.draw(self.desk.state())
+        self.worked.append(time.thread_time() - began)
 
     def _begin(self) -> None:
         self.now += 10.0
@@ -96,8 +111,8 @@ class Puller:
         self.now += 10.0
         state = self.desk.state()
         self.viewer.draw(state)
-        goal = next(anchor.now for anchor in state.model.anchors if anchor.name == "goal")
-        self.at = state.hand.position if self.node == "/hand" else goal
+        places = {f"/landmarks/{anchor.name}": anchor.now for anchor in state.model.anchors}
+        self.at = state.hand.position if self.node == "/hand" else places[self.node]
         self.way = way_of(self.node, self.at, EVENTS)
         self.desk.drag(self._event("start", self.at))
         self.left = EVENTS
@@ -130,7 +145,22 @@ def jaco() -> Iterator[Jaco]:
 def test_the_servers_work(
     benchmark: BenchmarkFixture, handle: viser.ClientHandle, jaco: Jaco, node: str, n_samples: int
 ) -> None:
-    desk = Desk(reaching(n_samples), jaco)
+    measure(benchmark, handle, jaco, reaching(n_samples), node)
+
+
+@pytest.mark.benchmark(group=GROUP)
+@pytest.mark.parametrize("node", ["/landmarks/goal", "/landmarks/box"])
+def test_the_servers_work_with_four_landmarks_and_a_frame_among_them(
+    benchmark: BenchmarkFixture, handle: viser.ClientHandle, jaco: Jaco, node: str
+) -> None:
+    measure(benchmark, handle, jaco, with_frame(reaching(SAMPLES[0])), node)
+
+
+def measure(
+    benchmark: BenchmarkFixture, handle: viser.ClientHandle, jaco: Jaco, document: Document, node: str
+) -> None:
+    """Pull a node of a document's scene."""
+    desk = Desk(document, jaco)
     desk.stage.pause()
     avoid_pauses()  # as `gc-teach serve` does
     viewer = viewers.working(handle, Notes(), jaco, time.monotonic, [])
@@ -139,6 +169,7 @@ def test_the_servers_work(
     benchmark.pedantic(puller.update, setup=puller.one_event, rounds=4 * EVENTS, warmup_rounds=10)
 
     benchmark.extra_info |= summary(benchmark.stats.stats.data)
+    benchmark.extra_info |= {f"cpu_{name}": value for name, value in summary(puller.worked).items()}
     assert desk.state().dragging == node
 
 

@@ -13,6 +13,7 @@ from gc_core import (
     NoDemonstrationsError,
     OpposedDemonstrationsError,
     UnknownOptionError,
+    coarser,
     encode,
 )
 from gc_core.alignment import ALIGNMENTS
@@ -360,3 +361,24 @@ def test_the_slope_says_where_circles_are_no_envelope_of_spheres() -> None:
     np.testing.assert_allclose(np.median(cone(0.3).slope), 0.3, rtol=0.01)
     assert (cone(0.9).slope < 1.0).all()
     assert (cone(1.3).slope > 1.0).any()
+
+
+@settings(max_examples=20, deadline=None)
+@given(seed=seeds, section=sections, angles=st.sampled_from([8, 32, 41]))
+def test_a_coarser_tube_still_holds_every_effective_point(seed: int, section: str, angles: int) -> None:
+    cylinder = coarser(encode(bundle(seed), section=section, stations=60), angles)
+
+    assert cylinder.surface().shape == (60, angles, 3)
+    assert ratios_to_polygons(cylinder).max() <= 1.0 + 1e-9
+
+
+def test_a_tube_that_is_coarse_enough_stays_the_same() -> None:
+    cylinder = encode(bundle(3), stations=60, angles=32)
+
+    assert coarser(cylinder, 32) is cylinder
+
+
+def test_a_tube_is_made_coarser_once() -> None:
+    cylinder = encode(bundle(3), stations=60)
+
+    assert coarser(cylinder, 32) is coarser(cylinder, 32)
