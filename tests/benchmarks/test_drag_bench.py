@@ -1,7 +1,8 @@
 """The whole work of one drag update, and how soon a tab has the answer.
 
-Goal: a median and a 95th percentile under 15 ms for servo, learning at 200 stations from five demonstrations, reproduction,
-drawing and messages. One drag sends an event each 50 ms; the hand moves at 0.2 m/s.
+Goal: a median and a 95th percentile under 15 ms for servo, learning at 200 stations from five
+demonstrations, reproduction, drawing and messages. One drag sends an event each 50 ms; the hand moves at
+0.2 m/s.
 """
 
 from __future__ import annotations
