@@ -73,12 +73,14 @@ def facts(plan: Plan) -> tuple[str, ...]:
 
 def pace(plan: Plan) -> str:
     """Say how long a run takes as taught, and how long the arm needs."""
-    best = plan.verdict.timed.duration
-    if plan.slowed:
-        return f"Taught in {plan.taught:.1f} s; the arm needs {plan.clock[-1]:.1f} s."
     if any(problem.kind == "leap" for problem in plan.verdict.problems):
         return f"Taught in {plan.taught:.1f} s."
-    return f"Taught in {plan.taught:.1f} s, which the arm keeps to; at its fastest it needs {best:.1f} s."
+    if plan.slowed:
+        return f"Taught in {plan.taught:.1f} s; the arm needs {plan.clock[-1]:.1f} s."
+    best = plan.verdict.timed.duration
+    return (
+        f"Taught in {plan.taught:.1f} s; the arm plays it in {plan.clock[-1]:.1f} s, and can in {best:.1f} s."
+    )
 
 
 def others(plans: Sequence[Plan], run: int) -> tuple[str, ...]:

@@ -14,7 +14,7 @@ from app.store import Plan, State
 
 SHORTEST: Final = 0.03
 """A stretch is hatched over at least this length, so that a single place is seen too [m]."""
-DASH, GAP = 0.006, 0.012
+DASH, GAP = 0.008, 0.011
 """The gap is the longer one: the line below stays the line [m]."""
 
 
@@ -47,8 +47,9 @@ def hatched(plan: Plan) -> FloatArray:
     wrong = np.zeros(len(positions), dtype=np.bool_)
     for problem in judgement.problems(plan):
         middle = 0.5 * (length[problem.first] + length[problem.last])
-        low = min(length[problem.first], middle - 0.5 * SHORTEST)
-        high = max(length[problem.last], middle + 0.5 * SHORTEST)
+        begin = min(max(middle - 0.5 * SHORTEST, 0.0), max(length[-1] - SHORTEST, 0.0))
+        low = min(length[problem.first], begin)
+        high = max(length[problem.last], begin + SHORTEST)
         wrong |= (length >= low) & (length <= high)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], wrong, [False]]).astype(np.int8)))
     stretches = [dashes(positions[a:b], DASH, GAP) for a, b in edges.reshape(-1, 2).tolist()]

@@ -137,6 +137,35 @@ def test_a_pull_changes_what_it_should_and_undo_restores_the_picture(client: Fak
     client.wait(lambda c: picture(c) == before)
 
 
+def test_what_the_arm_cannot_do_is_hatched_and_told_once_the_worker_has_found_it_and_gone_with_it(
+    client: FakeClient,
+) -> None:
+    hatching = "/reproductions/0/hatching"
+    client.wait(lambda c: "The arm can do run 1." in c.text())
+    pull(client, "/start/0", (0.9, 0.3, 0.1))
+    client.wait(lambda c: hatching in c.nodes and c.node(hatching).visible)
+    client.wait(lambda c: "The arm cannot do run 1 as it is" in c.text())
+    told = [e.label for e in client.gui if e.kind == "Button" and "beyond reach" in e.label and e.usable]
+
+    press(client, "Undo:")
+
+    assert len(told) == 1
+    client.wait(lambda c: not c.node(hatching).visible and "The arm can do run 1." in c.text())
+
+
+def test_every_run_is_checked_not_only_the_one_that_is_played(client: FakeClient) -> None:
+    press(client, "Add another start")
+    client.wait(lambda c: "/start/1" in c.nodes)
+    pull(client, "/start/1", (0.9, 0.3, 0.1))
+    client.wait(lambda c: "/reproductions/1/hatching" in c.nodes)
+
+    client.wait(lambda c: any(e.label == "Run" and e.usable for e in c.gui))
+    client.set_gui("Run", "1")
+
+    client.wait(lambda c: "The arm can do run 1." in c.text())
+    assert "The arm cannot do run 2 as it is" in client.text()
+
+
 def test_redo_restores_the_pulled_picture(client: FakeClient) -> None:
     before = picture(client)
     pull(client, "/landmarks/goal", BY)
