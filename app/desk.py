@@ -178,10 +178,11 @@ class Desk:
     # --- playback ----------------------------------------------------------------------
 
     def accept_plan(self, plan: Plan) -> None:
-        """Take over what the arm makes of a run; says the worst of what it cannot do."""
-        known = self.stage.accept(plan, self.model)
+        """Take over what the arm makes of a run; says the worst of what it cannot do, one run at a time."""
+        if not self.stage.accept(plan, self.model):
+            return
         words = judgement.warning(plan, len(self.model.runs))
-        if known and words is not None:
+        if words is not None and (plan.run == self.stage.playback.run or not self.warning):
             self.say(words, warning=True)
 
     def play(self, playing: bool, now: float) -> None:

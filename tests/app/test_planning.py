@@ -201,6 +201,15 @@ def test_the_run_that_is_played_is_planned_first_and_the_others_after_it(desk: D
     assert desk.stage.unplanned(desk.model) == (0, 2)
 
 
+def test_of_several_runs_that_cannot_be_done_the_one_that_is_played_is_told() -> None:
+    desk = desk_of(replace(taught(), starts=tuple(np.array([2.0, y, 0.5]) for y in (0.0, 0.1, 0.2))))
+    desk.choose_run(1)
+    for run in (0, 1, 2):
+        desk.accept_plan(planned(desk, run))
+
+    assert desk.message.startswith("The arm cannot do run 2 as it is")
+
+
 def test_while_a_start_is_pulled_the_other_runs_keep_their_plans(desk: Desk, mouse: Mouse) -> None:
     desk.edit(lambda d: edits.add_start(d, FIRST_START - 0.03), "add a start", now=mouse.now)
     desk.state()
