@@ -179,9 +179,7 @@ class Desk:
 
     def accept_plan(self, plan: Plan) -> None:
         """Take over what the arm makes of a run; says the worst of what it cannot do, one run at a time."""
-        if not self.stage.accept(plan, self.model):
-            return
-        words = judgement.warning(plan, len(self.model.runs))
+        words = judgement.warning(plan) if self.stage.accept(plan, self.model) else None
         if words is not None and (plan.run == self.stage.playback.run or not self.warning):
             self.say(words, warning=True)
 

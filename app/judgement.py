@@ -37,12 +37,12 @@ def worst_at(plan: Plan, problem: Problem) -> float:
     return float(plan.reproduction.times[problem.worst])
 
 
-def warning(plan: Plan, n_runs: int) -> str | None:
+def warning(plan: Plan) -> str | None:
     """Say the worst problem of a run, and that there are more; None where the arm can do it."""
     found = problems(plan)
     if not found:
         return None
-    which = "this run" if n_runs == 1 else f"run {plan.run + 1}"
+    which = "this run" if len(plan.source.runs) == 1 else f"run {plan.run + 1}"
     more = "" if len(found) == 1 else f" More of it is told in Try ({len(found)} places in all)."
     worst = found[0]
     return f"The arm cannot do {which} as it is: {when(plan, worst)}, {worst.what}. {worst.remedy}{more}"

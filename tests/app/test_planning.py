@@ -98,7 +98,7 @@ def test_the_arm_can_do_every_run_of_a_built_in_skill_within_its_limits(name: st
     for run in range(len(desk.model.runs)):
         plan = planned(desk, run)
         steps = np.abs(np.diff(plan.path.joints, axis=0)) / np.diff(plan.clock)[:, None]
-        assert judgement.warning(plan, 1) is None
+        assert judgement.warning(plan) is None
         assert plan.path.errors.max() < REACHED
         assert plan.verdict.self_distance > 0.0
         assert too_fast(plan.verdict.timed, jaco.velocity_limits, jaco.acceleration_limits) <= 1.0
