@@ -124,10 +124,12 @@ def tremble(demonstration: Demonstration, samples: int = 200) -> float:
     moving = trimmed(demonstration)
     clock = moving.times - moving.times[0]
     even = np.linspace(0.0, float(clock[-1]), samples)
-    path = np.stack([interpolated(even, clock, column) for column in moving.positions.T], axis=1)
+    columns = [interpolated(even, clock, moving.positions[:, axis]) for axis in range(3)]
+    path: FloatArray = np.stack(columns, axis=1)
     length = float(arc_length(moving.positions)[-1])
     jerk = float(samples - 1) ** 3 * (path[3:] - 3.0 * path[2:-1] + 3.0 * path[1:-2] - path[:-3])
-    return float(np.median(np.linalg.norm(jerk, axis=1))) / max(length, 1e-9)
+    size: FloatArray = np.sqrt((jerk**2).sum(axis=1))
+    return float(np.median(size)) / max(length, 1e-9)
 
 
 def _still(demonstration: Demonstration) -> BoolArray:
