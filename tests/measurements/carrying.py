@@ -27,7 +27,7 @@ from tests.helpers_data import load
 
 EVEN: Final = 100
 """Samples of a path that is compared."""
-SEEDS: Final = range(20_000, 20_200)
+SEEDS: Final = range(20_000, 20_060)
 """Motions that are shown in two scenes. Nothing was chosen by looking at these."""
 LINES: Final = 8
 """Of the boundary that are compared."""
