@@ -71,6 +71,7 @@ def _replacing(subject: Subject, original: Demonstration, corrected: Corrected) 
 
     return Choice(
         "Accept",
+        "as corrected",
         f"This replaces {subject.name}, and the tube is learned anew.",
         f"correct {subject.name}",
         apply,
@@ -86,6 +87,7 @@ def _ruling(subject: Subject, run: Reproduction, corrected: Corrected) -> Choice
 
     return Choice(
         "Add a rule",
+        "with the rule",
         "All runs keep to your side of it from now on; what was taught stays as it is.",
         f"add a rule from {subject.name}",
         apply,
@@ -97,6 +99,7 @@ def _teaching(subject: Subject, run: Reproduction, corrected: Corrected) -> Choi
     kept = handpull.taken_back(made, subject.among)
     return Choice(
         "Teach it",
+        "with it taught",
         "It joins the demonstrations, and the tube is learned anew with it.",
         f"teach the corrected {subject.name}",
         lambda document: handpull.added(document, kept),

@@ -27,6 +27,8 @@ class Choice:
 
     label: str
     """Of its button."""
+    seen: str
+    """How the skill is shown then, for instance ``with the rule``."""
     sentence: str
     """What it means, in one sentence."""
     name: str

@@ -28,7 +28,7 @@ class ProposalPanel:
             self._said = gui.add_html("")
             self._answers = gui.add_button_group("", (DISCARD,))
             self._looks = gui.add_button_group(
-                "Show", (DISCARD,), visible=False, hint="What is shown as if it were chosen already."
+                "Show it", (DISCARD,), visible=False, hint="What is shown as if it were chosen already."
             )
         on_choice(self._answers, self._answer)
         on_choice(self._looks, actions.preview)
@@ -45,7 +45,8 @@ class ProposalPanel:
     def _ask(self, proposal: Proposal, state: State) -> None:
         labels = tuple(choice.label for choice in proposal.choices[:MOST])
         self._count = len(labels)
-        marked = tuple(SHOWN + label if i == proposal.previewed else label for i, label in enumerate(labels))
+        seen = tuple(choice.seen for choice in proposal.choices[:MOST])
+        marked = tuple(SHOWN + one if i == proposal.previewed else one for i, one in enumerate(seen))
         assign(self._box, label=proposal.title)
         assign(self._said, content=words.note(asked(proposal, state)))
         assign(self._answers, options=(*labels, DISCARD))
