@@ -31,6 +31,8 @@ class Things:
     def draw(self, state: State) -> None:
         """Draw every thing, and the handles of the one that is worked on."""
         things, chosen = state.document.things, state.view.thing
+        if state.trial is not None:
+            things = state.trial.moved(things)
         if things is self._drawn[0] and chosen == self._drawn[1]:
             return
         self._drawn = things, chosen

@@ -131,6 +131,17 @@ def test_a_changed_skill_makes_a_trial_stale_and_ends_its_show(carried: tuple[De
     assert stale.time is None
 
 
+@needs_pybullet
+def test_things_are_shown_where_physics_put_them_while_it_is_shown(carried: tuple[Desk, Trial]) -> None:
+    trial = carried[1]
+    assert trial.played is not None
+    end = float(trial.played.times[-1])
+    (shown,) = replace(trial, time=end).moved((CUP,))
+
+    np.testing.assert_allclose(shown.position, trial.played.objects["cup"][-1, :3, 3], atol=1e-9)
+    assert trial.moved((CUP,)) == (CUP,)
+
+
 def task_of(desk: Desk) -> Task:
     task = desk.stage.task(desk.model)
     assert task is not None
