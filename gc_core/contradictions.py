@@ -12,6 +12,9 @@ from gc_core.arrays import BoolArray, FloatArray
 from gc_core.constraints import Constraint, planes_at
 from gc_core.half_spaces import CORNERS, TOGETHER, left_behind, step_to_allowed
 
+SAME_WAY = 0.2
+"""Normals that all go so much (cosine) with their sum look the same way."""
+
 
 @dataclass(frozen=True)
 class Contradiction:
@@ -92,5 +95,13 @@ def contradictions(
 
 def _without_common_place(points: FloatArray, normals: FloatArray) -> BoolArray:
     """Tell where half-spaces (P, C, 3) have no place in common (P,)."""
+    # Where all planes look the same way there is a place ahead of all, and nothing to compute.
+    total = normals.sum(axis=1)
+    ahead = np.einsum("pci,pi->pc", normals, total).min(axis=1)
+    apart = ahead < SAME_WAY * np.maximum(np.sqrt(np.einsum("pi,pi->p", total, total)), 1.0)
+    if not apart.any():
+        return apart
+    points, normals = points[apart], normals[apart]
     behind = np.einsum("pci,pci->pc", points - points.mean(axis=1, keepdims=True), normals)
-    return left_behind(step_to_allowed(behind, normals), behind, normals) > TOGETHER
+    apart[apart] = left_behind(step_to_allowed(behind, normals), behind, normals) > TOGETHER
+    return apart
