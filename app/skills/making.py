@@ -51,6 +51,7 @@ def make(recipe: Recipe, arm: Arm) -> Made:
         law=recipe.law,
         new_goals=recipe.new_goals,
         new_starts=recipe.new_starts,
+        things=recipe.things,
     )
     return Made(demonstrations, card)
 

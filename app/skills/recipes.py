@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
-from app.document import SectionKind
+from app.document import Box, Ring, SectionKind, Shape
 from app.skills.motion import Plan
 
 
@@ -35,7 +35,8 @@ class Recipe:
     directions of the distance from boundary to boundary through the middle line: twice the mean radius of
     the slice. As a part of the distance from start to goal: how far the middle line bows out at least
     (`bow`), and how far it may lie at most from the one that was taught, turned and scaled from the old
-    start and goal to the new ones (`shape_change`). For refinement: how far and over which width a
+    start and goal to the new ones (`shape_change`). How far every run within the tube keeps the hand, and
+    the whole arm, from what stands around at least. For refinement: how far and over which width a
     line is pulled down (`pull_m`, `press_m`, `width_m`); how deep the corrected demonstration dips at least;
     how much ends and other demonstrations move at most; and by which part of its share the middle line and a
     run beside it may miss it (`of_the_mean`). For a rule: how far behind it a run may be (`obeys_m`), and how
@@ -44,6 +45,8 @@ class Recipe:
     """Where the goal is moved to, one after the other [m]."""
     new_starts: tuple[tuple[float, float, float], ...] = ()
     """Where the start is moved to, one after the other [m]."""
+    things: tuple[Shape, ...] = ()
+    """What stands around [m]."""
 
 
 _BALL: Final = (-0.11, -0.60, 0.06)
@@ -86,7 +89,8 @@ NEEDLE: Final = Recipe(
     section="closed_spline",
     goal=_BEYOND_THE_EYE,
     starts=((0.65, 0.6), (0.7, 3.9)),
-    law={"middle_to_ends": 0.25, "middle_m": 0.03},
+    law={"middle_to_ends": 0.25, "middle_m": 0.03, "hand_clear_m": 0.015},
+    things=(Ring("eye", (0.0662, -0.5433, 0.3706), 0.045, 0.006, wxyz=(0.5695, 0.2251, -0.7906, 0.0)),),
 )
 
 _SHELF: Final = (-0.30, -0.42, 0.07)
@@ -106,6 +110,31 @@ CURVED: Final = Recipe(
     starts=((0.65, 0.9), (0.6, 3.6)),
     law={"demonstration_end_m": 0.02, "reproduction_end_m": 0.02, "bow": 0.4, "shape_change": 0.2},
     new_goals=((-0.40, -0.27, 0.07), (-0.14, -0.36, 0.07), (-0.36, -0.52, 0.20)),
+)
+
+_BEHIND_THE_BOX: Final = (-0.34, -0.38, 0.07)
+
+AROUND: Final = Recipe(
+    name="around_an_obstacle",
+    title="Around an obstacle",
+    about="Nobody told this robot of the box. It was shown five times how to go around it, so every run "
+    "in the tube stays clear.",
+    plan=Plan(
+        waypoints=(
+            (0.40, -0.36, 0.20),
+            (0.27, -0.58, 0.23),
+            (0.02, -0.71, 0.22),
+            (-0.22, -0.58, 0.19),
+            _BEHIND_THE_BOX,
+        ),
+        spread=((0.0, 0.075), (0.3, 0.062), (0.55, 0.055), (0.9, 0.016), (1.0, 0.012)),
+        seed=9,
+    ),
+    section="closed_spline",
+    goal=_BEHIND_THE_BOX,
+    starts=((0.65, 0.9), (0.8, 3.6)),
+    law={"reproduction_end_m": 0.02, "hand_clear_m": 0.05, "arm_clear_m": 0.03},
+    things=(Box("box", (0.02, -0.41, 0.13), (0.18, 0.14, 0.26)),),
 )
 
 _PUT_DOWN: Final = (-0.28, -0.48, 0.06)
@@ -173,4 +202,4 @@ LID: Final = Recipe(
     law={"press_m": 0.07, "width_m": 0.25, "obeys_m": 1e-9, "leap": 3.0},
 )
 
-RECIPES: Final = (REACHING, NEEDLE, CURVED, PICK, DIP, LID)
+RECIPES: Final = (REACHING, NEEDLE, CURVED, AROUND, PICK, DIP, LID)

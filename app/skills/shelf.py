@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
-from app.document import SECTION_KINDS, Document, FloatArray, Place, SectionKind, Settings
+from app import measures
+from app.arm.shapes import UPRIGHT
+from app.document import SECTION_KINDS, Document, FloatArray, Place, SectionKind, Settings, Shape
 from app.edits import add_demonstrations, point
+from app.edits.things import NEW
 from app.files import read
 from app.skills.errors import DamagedSkillError, NoSuchSkillError
 from gc_core import GcError
@@ -35,6 +38,8 @@ class Card:
     """Where to move the goal to, one after the other, to see the law kept [m]."""
     new_starts: tuple[tuple[float, float, float], ...] = ()
     """Where to move the start to, one after the other [m]."""
+    things: tuple[Shape, ...] = ()
+    """What stands around."""
 
 
 def skill_names(folder: Path) -> tuple[str, ...]:
@@ -69,6 +74,7 @@ def load_skill(folder: Path, name: str) -> Document:
                 *(Place("start", now=point(place)) for place in card.new_starts),
             ),
             starts=tuple(point(start) for start in card.starts),
+            things=card.things,
             built_in=True,
         )
         return add_demonstrations(document, read(folder / f"{name}.csv", units="m"))
@@ -104,6 +110,9 @@ def format_card(card: Card) -> str:
     tries = [f"{what} = [{', '.join(map(_numbers, places))}]" for what, places in moves if places]
     if tries:
         lines += ["", "[try]  # where landmarks can be moved to, one after the other [m]", *tries]
+    for thing in card.things:
+        lines += ["", "[[things]]  # measures and place of the middle [m], mass [kg]: 0 stands fixed"]
+        lines += _thing_lines(thing)
     return "\n".join(lines) + "\n"
 
 
@@ -130,7 +139,29 @@ def _card(table: Mapping[str, Any]) -> Card:
         law={str(key): float(value) for key, value in table["law"].items()},
         new_goals=tuple(_triple(place) for place in tries.get("goals", ())),
         new_starts=tuple(_triple(place) for place in tries.get("starts", ())),
+        things=tuple(map(_thing, table.get("things", ()))),
     )
+
+
+def _thing(table: Mapping[str, Any]) -> Shape:
+    kind, lengths = str(table["kind"]), tuple(float(length) for length in table["measures"])
+    new = next((new for name, new in NEW.items() if name == kind), None)
+    if new is None or len(lengths) != len(measures.measures(new)):
+        raise ValueError(f"there is no {kind[:40]} of {len(lengths)} measures")
+    w, x, y, z = (float(value) for value in table.get("wxyz", UPRIGHT))
+    named = replace(new, name=str(table["name"]), position=_triple(table["position"]), wxyz=(w, x, y, z))
+    return replace(measures.measured(named, lengths), mass=float(table.get("mass", 0.0)))
+
+
+def _thing_lines(thing: Shape) -> list[str]:
+    return [
+        f"kind = {_quoted(measures.kind_of(thing))}",
+        f"name = {_quoted(thing.name)}",
+        f"position = {_numbers(thing.position)}",
+        f"measures = {_numbers(measures.measures(thing))}",
+        *([] if thing.wxyz == UPRIGHT else [f"wxyz = {_numbers(thing.wxyz)}"]),
+        *([] if thing.mass == 0.0 else [f"mass = {thing.mass:g}"]),
+    ]
 
 
 def _triple(values: Any) -> tuple[float, float, float]:
@@ -143,5 +174,5 @@ def _quoted(text: str) -> str:
     return f'"{escaped}"'
 
 
-def _numbers(values: tuple[float, float, float] | FloatArray) -> str:
+def _numbers(values: Sequence[float] | FloatArray) -> str:
     return "[" + ", ".join(f"{value:.4f}".rstrip("0").rstrip(".") for value in values) + "]"
