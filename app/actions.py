@@ -77,11 +77,31 @@ class Actions(Protocol):
         ...
 
     def move_hand(self, position: FloatArray) -> None:
-        """Move the hand, and the start of the next demonstration, without recording."""
+        """Lead the hand to a place (3,) [m]; recorded only after `record`."""
         ...
 
     def nudge_hand(self, by: FloatArray) -> None:
-        """Move the hand by a little (3,) [m], without recording."""
+        """Lead the hand on by a little (3,) [m]; recorded only after `record`."""
+        ...
+
+    def hold_tool(self, held: bool) -> None:
+        """Hold the tool as it is while the hand is moved, or let it turn freely."""
+        ...
+
+    def turn_tool(self, wxyz: object) -> None:
+        """Turn the tool to an orientation w, x, y, z, checked where it is done, and hold it so."""
+        ...
+
+    def nudge_turn(self, by: FloatArray) -> None:
+        """Turn the tool by a little about its own x, y and z (3,) [rad], and hold it so."""
+        ...
+
+    def record(self) -> None:
+        """Begin a demonstration that is made by buttons and numbers, or end it."""
+        ...
+
+    def reposition(self) -> None:
+        """Bring a hand that is stuck to where it is wanted, by another posture of the arm."""
         ...
 
     def toggle_gripper(self) -> None:

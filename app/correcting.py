@@ -9,7 +9,7 @@ from scipy.spatial.transform import (  # pyright: ignore[reportMissingTypeStubs]
     Slerp,
 )
 
-from app import bending, edits, handpull
+from app import bending, drawn, edits
 from app.document import Document, FloatArray
 from app.proposal import Choice, Proposal
 from app.replaying import Corrected, Subject
@@ -96,13 +96,13 @@ def _ruling(subject: Subject, run: Reproduction, corrected: Corrected) -> Choice
 
 def _teaching(subject: Subject, run: Reproduction, corrected: Corrected) -> Choice:
     made = as_demonstration(run, corrected, f"Corrected {subject.name}")
-    kept = handpull.taken_back(made, subject.among)
+    kept = drawn.taken_back(made, subject.among)
     return Choice(
         "Teach it",
         "with it taught",
         "It joins the demonstrations, and the tube is learned anew with it.",
         f"teach the corrected {subject.name}",
-        lambda document: handpull.added(document, kept),
+        lambda document: drawn.added(document, kept),
     )
 
 

@@ -9,30 +9,27 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
-from app import attention, edits, gesture, handpull, judgement, sentences
+from app import attention, edits, gesture, judgement
 from app.actions import Drag
 from app.amending import Amending, Said
 from app.arm.protocol import Arm
-from app.document import Document, FloatArray, View
+from app.document import Document, View
 from app.files import Frame, Reading, Unit
 from app.gesture import Pull
 from app.grasp import Grasp
 from app.handpull import HandPull
-from app.model import Model, learn
+from app.leading import Leading
+from app.model import learn
 from app.offering import Offering
 from app.proposal import FIRST_ANSWER
 from app.stage import Stage
-from app.store import Hand, Plan, Playback, State, Store
+from app.store import Plan, Playback, State, Store
 from app.surroundings import conditions_of
 
 SLIP: Final = 0.001
 """A pull shorter than this was a slip of the hand and changes nothing [m]."""
-SHORTEST: Final = 0.03
-"""A demonstration shorter than this was a slip of the hand [m]."""
 PATIENCE: Final = 0.08
 """A pulled hand moves with the events of the pull; after a longer silence it moves on by itself [s]."""
-LONGEST_WAY: Final = 3.0
-"""A hand that is moved by numbers is given this time to arrive, which takes it anywhere [s]."""
 
 
 class Desk:
@@ -49,6 +46,8 @@ class Desk:
         self._held: Grasp | None = None
         self.amending = Amending(self.stage, self.store)
         self.saved = self.saving = document
+        self.leading = Leading(self)
+        """Buttons and numbers for the hand."""
         self._set_stage()
 
     # --- what is drawn -----------------------------------------------------------------
@@ -74,6 +73,7 @@ class Desk:
             replay=self.amending.progress,
             proposal=self.amending.proposal,
             trial=self.stage.trial(self.model),
+            stuck=self.leading.stuck,
             saved=self.saved is self.store.document,
         )
 
@@ -91,6 +91,14 @@ class Desk:
         """Fit the arm and the playhead to the present model and view."""
         self.stage.heed(conditions_of(self.model, self.view))
         self.stage.fit(self.model)
+        if self.pulled_hand is not None:
+            self.pulled_hand.heed(self.stage.arm.conditions)
+
+    @property
+    def pulled_hand(self) -> HandPull | None:
+        """The hand that is being led, by a pointer or by buttons."""
+        pull = None if self._held is None else self._held.pull
+        return pull if isinstance(pull, HandPull) else None
 
     def _words(self) -> tuple[str, bool]:
         said = attention.urgent(self.stage.hand, self._held, self.model, self.stage.arm)
@@ -145,8 +153,8 @@ class Desk:
         """Open or close the hand; recorded while it is pulled."""
         self.look(gripper_closed=not self.view.gripper_closed)
         gripper = float(self.view.gripper_closed)
-        if self._held is not None and isinstance(self._held.pull, HandPull):
-            self._held.pull.set_gripper(gripper)
+        if self.pulled_hand is not None:
+            self.pulled_hand.set_gripper(gripper)
         self.stage.driver.grip(gripper)
 
     # --- files -------------------------------------------------------------------------
@@ -236,7 +244,7 @@ class Desk:
             self.let_go(drag.time)
             self._learned()  # an edit or a release may not be learned yet
             held = self._held = self._grab(drag)
-        elif held is not None and held.node == drag.node:
+        elif held is not None and held.takes(drag):
             held.follow(drag)
         if held is not None and isinstance(held.pull, HandPull):
             self.stage.driver.pulled(held.pull.advance(drag.time))
@@ -244,7 +252,7 @@ class Desk:
     def _grab(self, drag: Drag) -> Grasp | None:
         pull: Pull | HandPull | None
         if drag.node == "/hand":
-            pull = self._take_hand(drag.time, records=not drag.aside)
+            pull = self.take_hand(drag.time, records=not drag.aside)
             self.stage.pause()
         else:
             pull = gesture.pull_on(drag.node, drag.grabbed, self.model, self.view.pull_width, drag.eye)
@@ -258,10 +266,15 @@ class Desk:
         held.aim(drag)
         return held
 
-    def _take_hand(self, now: float, *, records: bool) -> HandPull:
+    def take_hand(self, now: float, *, records: bool, pointed: bool = True) -> HandPull:
         """Take the hand, open or closed as it is shown; what was played may have left it otherwise."""
+        self.leading.forget()
         hand = replace(self.stage.hand, gripper=float(self.view.gripper_closed))
-        return HandPull(self.stage.arm, hand, now, records=records)
+        return HandPull(self.stage.arm, hand, now, records=records, pointed=pointed)
+
+    def hold(self, held: Grasp) -> None:
+        """Take this for what is held from now on."""
+        self._held = held
 
     def let_go(self, now: float) -> None:
         """End whatever is pulled, and keep what it did."""
@@ -271,33 +284,11 @@ class Desk:
             return
         pull = held.pull
         if isinstance(pull, HandPull):
-            self._let_hand_go(pull, pull.finish(), now, held.before)
+            self.leading.let_go(pull, pull.finish(), now, held.before)
         elif held.moved >= SLIP:
             self.store.edit(lambda d: pull.apply(d, held.track.displacement), pull.name, now=now)
             if pull.node.startswith("/start/"):
                 self.stage.cue(self.stage.playback.run, self.model, playing=True)
-
-    def _let_hand_go(self, pull: HandPull, hand: Hand, now: float, among: Model) -> None:
-        self.stage.driver.released(hand, pull.begins_at.joints if pull.records else None, now)
-        if not pull.records:
-            self.say("The next demonstration begins here.")
-            return
-        drawn = pull.drawn()
-        if drawn.length < SHORTEST:
-            self.say(sentences.too_short(drawn), warning=True)
-            return
-        shown = handpull.taken_back(handpull.demonstration(drawn), among)
-        self.store.edit(lambda d: handpull.added(d, shown), "demonstrate", now=now)
-        learned_from = sum(not shown.muted for shown in self.store.document.demonstrations)
-        self.say(sentences.demonstrated(drawn, learned_from, shown), warning=shown.muted)
-
-    def move_hand(self, position: FloatArray, now: float) -> None:
-        """Move the hand, and the start of the next demonstration, without recording."""
-        self.let_go(now)
-        self.stage.pause()
-        pull = self._take_hand(now, records=False)
-        pull.aim(now, edits.point(position))
-        self._let_hand_go(pull, pull.finish(LONGEST_WAY), now, self.model)
 
     # --- time --------------------------------------------------------------------------
 
@@ -314,6 +305,8 @@ class Desk:
         if held is not None and isinstance(held.pull, HandPull):
             if held.ends is None and now - held.followed > PATIENCE:
                 self.stage.driver.pulled(held.pull.advance(now))
+            if held.pull.arrived(now):
+                self.let_go(now)
             return True
         moving = self.stage.tick(now, dt, self.model, self.view)
         return moving or held is not None

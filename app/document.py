@@ -130,7 +130,10 @@ class View:
     """As taught, slower where the arm must; or as fast as the arm can."""
     loop: bool = True
     tool: tuple[float, float, float, float] | None = None
-    """The tool is held like this while the arm is moved, w x y z; None: free, rather pointing down."""
+    """The tool is held like this while the hand is moved, w x y z; None: it points down by itself, and
+    gives way only where the hand could not go otherwise."""
+    rings: bool = False
+    """Rings about the hand turn the tool."""
     replay: str = "/demonstrations/0"
     """Scene name of what is replayed to be corrected."""
     replay_speed: float = 0.5

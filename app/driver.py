@@ -6,8 +6,9 @@ from typing import Final
 import numpy as np
 
 from app.arm.protocol import Arm, FloatArray, JointPath
-from app.servo import Motion, return_home
+from app.servo import Motion, return_home, swing
 from app.store import Hand
+from app.turning import orientation_of
 from gc_core import Reproduction
 
 SERVO_TICK: Final = 0.01
@@ -56,7 +57,8 @@ class Driver:
         self.hand = self._at(arm.home)
 
     def _at(self, joints: FloatArray, gripper: float = 0.0) -> Hand:
-        return Hand(joints, self._arm.tool_pose(joints)[:3, 3], gripper)
+        pose = self._arm.tool_pose(joints)
+        return Hand(joints, pose[:3, 3], gripper, turned=orientation_of(pose))
 
     def use(self, arm: Arm) -> None:
         """From now on move the same arm under other conditions."""
@@ -70,11 +72,28 @@ class Driver:
         """Take over where the servo has brought the pulled hand."""
         self._leads, self._way, self.hand = False, None, hand
 
-    def released(self, hand: Hand, back_to: FloatArray | None, now: float) -> None:
-        """Stay where the hand was let go, or go back to the joints it was grabbed at."""
+    def released(self, hand: Hand, back_to: FloatArray | None, now: float) -> bool:
+        """Stay where the hand was let go, or go back to the joints it was grabbed at.
+
+        Returns
+        -------
+        bool
+            False when it should go back and no way is clear of the arm itself, of things and of the table;
+            then it stays.
+        """
         self.pulled(hand)
-        if back_to is not None:
-            self._way = now, return_home(self._arm, hand.joints, back_to, duration=RETURN)
+        if back_to is None:
+            return True
+        way = self._arm.way(hand.joints, back_to)
+        if way is None:
+            return False
+        straight = return_home(self._arm, way[0], way[-1], duration=RETURN)
+        self._way = now, straight if len(way) == 2 else swing(self._arm, way)
+        return True
+
+    def swings(self, motion: Motion, now: float) -> None:
+        """Go this way from where it begins."""
+        self._leads, self._way = False, (now, motion)
 
     def grip(self, gripper: float) -> None:
         """Open (0) or close (1) the hand."""

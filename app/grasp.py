@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app import gesture, handpull
+from app import drawn, gesture
 from app.actions import Drag
 from app.document import Document
 from app.gesture import Pull, Track
@@ -39,6 +39,10 @@ class Grasp:
     def moved(self) -> float:
         """How far it was pulled [m]."""
         return float(np.linalg.norm(self.track.displacement))
+
+    def takes(self, drag: Drag) -> bool:
+        """Whether an event belongs to this pull."""
+        return self.node == drag.node and (not isinstance(self.pull, HandPull) or self.pull.pointed)
 
     def goes_on(self, drag: Drag) -> bool:
         """Whether a new part of the same pull begins: Shift was pressed or let go in mid-drag."""
@@ -78,4 +82,4 @@ class Grasp:
         if not isinstance(self.pull, HandPull):
             return self.pull.apply(document, self.track.displacement)
         part = self.pull.preview(self.before.cylinder)
-        return document if part is None else handpull.added(document, handpull.taken_back(part, self.before))
+        return document if part is None else drawn.added(document, drawn.taken_back(part, self.before))

@@ -59,11 +59,31 @@ class Seat:
 
     def move_hand(self, position: FloatArray) -> None:
         """See `Actions.move_hand`."""
-        self._post(lambda desk, now: desk.move_hand(position, now))
+        self._post(lambda desk, now: desk.leading.move(position, now))
 
     def nudge_hand(self, by: FloatArray) -> None:
         """See `Actions.nudge_hand`."""
-        self._post(lambda desk, now: desk.move_hand(desk.state().hand.position + by, now))
+        self._post(lambda desk, now: desk.leading.nudge(by, now))
+
+    def hold_tool(self, held: bool) -> None:
+        """See `Actions.hold_tool`."""
+        self._post(lambda desk, _: desk.leading.hold(held))
+
+    def turn_tool(self, wxyz: object) -> None:
+        """See `Actions.turn_tool`."""
+        self._post(lambda desk, now: desk.leading.turn(wxyz, now))
+
+    def nudge_turn(self, by: FloatArray) -> None:
+        """See `Actions.nudge_turn`."""
+        self._post(lambda desk, now: desk.leading.nudge_turn(by, now))
+
+    def record(self) -> None:
+        """See `Actions.record`."""
+        self._post(lambda desk, now: desk.leading.record(now))
+
+    def reposition(self) -> None:
+        """See `Actions.reposition`."""
+        self._post(lambda desk, now: desk.leading.reposition(now))
 
     def toggle_gripper(self) -> None:
         """See `Actions.toggle_gripper`."""

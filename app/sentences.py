@@ -1,6 +1,12 @@
 """What the desk says to a person: what happened, why, and what to do, in centimetres and seconds."""
 
-from app.handpull import Drawn, TakenBack
+from collections.abc import Sequence
+from typing import Final
+
+from app.drawn import Drawn, TakenBack
+from gc_core import Demonstration
+
+NO_WAY_BACK: Final = "The arm found no clear way back, so it stays here."
 
 
 def too_short(drawn: Drawn) -> str:
@@ -11,7 +17,7 @@ def too_short(drawn: Drawn) -> str:
     )
 
 
-def demonstrated(drawn: Drawn, learned_from: int, kept: TakenBack) -> str:
+def demonstrated(drawn: Drawn, learned_from: Sequence[Demonstration], kept: TakenBack) -> str:
     """A demonstration was kept, perhaps not where it was drawn."""
     if kept.muted:
         return (
@@ -24,6 +30,12 @@ def demonstrated(drawn: Drawn, learned_from: int, kept: TakenBack) -> str:
             "it would have been before (red line), and the tube takes it along to here."
         )
     more = "Show it once more, a little differently."
-    if learned_from >= 3:
-        more = f"The tube holds {learned_from} now."
+    if len(learned_from) >= 3:
+        more = f"The tube holds {len(learned_from)} now."
+    n_held = sum(shown.orientations is not None for shown in learned_from)
+    if 0 < n_held < len(learned_from):
+        more = (
+            f"The tool was held in {n_held} of {len(learned_from)}: runs hold it once all were shown so. "
+            "Mute or delete the others."
+        )
     return f"That was a demonstration of {drawn.times[-1]:.1f} s. {more}"

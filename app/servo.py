@@ -80,6 +80,16 @@ class Servo:
         return self.tick / TICKS_PER_SECOND
 
     @property
+    def waits(self) -> bool:
+        """Whether it has come past every event."""
+        return len(self.pending) == 0 and self.reference >= self.waypoints[-1, 0]
+
+    @property
+    def aim(self) -> FloatArray:
+        """(3,) where the last event wants the hand [m]."""
+        return self.waypoints[-1, 1:] if len(self.pending) == 0 else self.pending[-1, 1:]
+
+    @property
     def target(self) -> FloatArray:
         """(3,) where the hand is wanted at the last tick; behind the pointer by one event [m]."""
         return _target(self.reference, self.waypoints)
@@ -220,26 +230,18 @@ def return_home(
 def reposition(arm: Arm, joints: FloatArray, target: FloatArray, *, time: float = 0.0) -> Motion | None:
     """Bring a hand that is stuck to where it is wanted, by another posture of the arm.
 
-    Parameters
-    ----------
-    arm : Arm
-        Finds the way by `Arm.reposition`.
-    joints : (J,) array
-        Present joints [rad].
-    target : (3,) array
-        Where the hand is wanted [m].
-    time : float
-        Session time of the beginning [s]; rounded down to a whole tick.
-
     Returns
     -------
     Motion or None
-        From one posture of the way to the next, each by `return_home`, no joint faster
-        than `FASTEST`; None when there is no way.
+        From one posture of the way that `Arm.reposition` finds to the next, beginning at the last whole tick
+        before ``time`` [s]; None when there is no way.
     """
     way = arm.reposition(joints, target)
-    if way is None:
-        return None
+    return None if way is None else swing(arm, way, time=time)
+
+
+def swing(arm: Arm, way: FloatArray, *, time: float = 0.0) -> Motion:
+    """Pass postures (W, J) one after the other, each by `return_home`, no joint faster than `FASTEST`."""
     parts: list[Motion] = []
     for start, goal in pairwise(way):
         duration = max(_PEAK * float(np.abs(goal - start).max()) / FASTEST, _TICK)

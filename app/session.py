@@ -24,6 +24,7 @@ from app.arm.protocol import Arm
 from app.desk import Desk
 from app.document import Document, FloatArray
 from app.files import inspect_bytes
+from app.inquiry import Answer, Inquirer, Inquiry
 from app.library import Library, LibraryError
 from app.planning import plan_run
 from app.scene import VIEWS
@@ -83,6 +84,7 @@ class Session:
         self._files = Latest(workshop.workers, self._actor)
         self._shaping = Shaping(workshop.workers, self._actor)
         self._trials = Trials(workshop.workers, self._actor, workshop.make_arm)
+        self._inquirer = Inquirer(Latest(workshop.workers, self._actor), workshop.make_arm)
 
     @staticmethod
     def clock() -> float:
@@ -233,8 +235,12 @@ class Session:
                 viewer.draw(state)
         finally:  # what cannot be drawn is saved all the same
             self._save()
+            self._inquirer.ask(self._desk.leading.inquiry, self._answer)
             self._plan(state)
             self._shaping.follow(state)
+
+    def _answer(self, inquiry: Inquiry, answer: Answer) -> None:
+        self._desk.leading.answered(inquiry, answer, self.clock())
 
     def _plan(self, state: State) -> None:
         """Have a run checked that was not yet, one after the other; the one that is played comes first."""
@@ -242,7 +248,7 @@ class Session:
         waiting = () if state.dragging is not None else stage.unplanned(model)
         if not waiting:
             return
-        run, conditions, near = waiting[0], stage.arm.conditions, stage.begins_near()
+        run, conditions, near = waiting[0], stage.playing_conditions, stage.begins_near()
         asked = (model.runs[run].reproduction, conditions)
         if self._asked == asked:
             return

@@ -22,10 +22,12 @@ class Stage:
     def __init__(self, arm: Arm) -> None:
         self.arm = arm
         """Heeds what stands around and how the tool is held."""
+        self.playing_conditions = Conditions(arm.conditions.obstacles)
+        """What it heeds when it plays or goes back: the tool is then turned as it was shown."""
         self.driver = Driver(arm)
         self.playback = Playback(playing=True)
         self._plans: tuple[Plan, ...] = ()
-        self._planned_for: tuple[Model | None, Conditions] = None, arm.conditions
+        self._planned_for: tuple[Model | None, Conditions] = None, self.playing_conditions
         self._began: FloatArray | None = None
         self._trial: Trial | None = None
 
@@ -43,7 +45,9 @@ class Stage:
         """From now on keep off these things and hold the tool like this."""
         if conditions != self.arm.conditions:
             self.arm = self.arm.under(conditions)
-            self.driver.use(self.arm)
+            if conditions.obstacles != self.playing_conditions.obstacles:
+                self.playing_conditions = Conditions(conditions.obstacles)
+            self.driver.use(self.arm.under(self.playing_conditions))
 
     def fit(self, model: Model) -> None:
         """Fit the playback to the runs of a model."""
@@ -58,8 +62,8 @@ class Stage:
 
     def plans(self, model: Model) -> tuple[Plan, ...]:
         """Give what the arm makes of the runs, as far as it is known and still true."""
-        if model is not self._planned_for[0] or self.arm.conditions is not self._planned_for[1]:
-            self._planned_for = model, self.arm.conditions
+        if model is not self._planned_for[0] or self.playing_conditions is not self._planned_for[1]:
+            self._planned_for = model, self.playing_conditions
             self._plans = tuple(plan for plan in self._plans if self._holds(plan, model))
         return self._plans
 
@@ -81,7 +85,7 @@ class Stage:
 
     def _holds(self, plan: Plan, model: Model) -> bool:
         """Whether a plan is about the same run under the same conditions, whatever else was changed."""
-        if plan.run >= len(model.runs) or plan.conditions != self.arm.conditions:
+        if plan.run >= len(model.runs) or plan.conditions != self.playing_conditions:
             return False
         return (
             plan.reproduction is model.runs[plan.run].reproduction and plan.source.cylinder is model.cylinder
@@ -99,7 +103,7 @@ class Stage:
         run = self.playback.run
         if run >= len(model.runs):
             return None
-        return Task(model, run, self.arm.conditions, self.begins_near(), self.plan(model))
+        return Task(model, run, self.playing_conditions, self.begins_near(), self.plan(model))
 
     def accept_trial(self, trial: Trial) -> None:
         """Take over what physics made of a run, or how far it is."""

@@ -11,6 +11,7 @@ from typing import Final
 from app import edits
 from app.arm.conditions import Conditions
 from app.arm.protocol import JointPath, Shortfall
+from app.arm.shapes import Quadruple
 from app.arm.verdict import Verdict
 from app.document import Document, FloatArray, View
 from app.files import Frame, Unit
@@ -98,6 +99,12 @@ class Hand:
     """(T, 3) the demonstration drawn so far [m]."""
     returns_to: FloatArray | None = None
     """(3,) where the hand goes back to after the release [m]; while recording and returning."""
+    aim: FloatArray | None = None
+    """(3,) where buttons and numbers lead it [m]; None: they do not."""
+    unturned: str = ""
+    """What keeps the tool from being turned as it shall be; empty: nothing does."""
+    turned: Quadruple = (0.0, 1.0, 0.0, 0.0)
+    """How the tool is turned, w x y z."""
 
 
 @dataclass(frozen=True)
@@ -181,6 +188,8 @@ class State:
     """What physics made of a run, if it was asked."""
     shapes: Shapes | None = None
     """The skill in every kind of cross-section; of a former model until those of this one are made."""
+    stuck: bool = False
+    """Whether the hand is, or was when it was let go, where only another posture of the arm comes."""
     saved: bool = True
     """Whether the library holds the committed document."""
 

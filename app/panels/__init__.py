@@ -23,6 +23,7 @@ from app.panels.physics import PhysicsPanel
 from app.panels.placing import PlacingPanel
 from app.panels.proposal import ProposalPanel
 from app.panels.replay import ReplayPanel
+from app.panels.reposition import RepositionPanel
 from app.panels.rules import RulesPanel
 from app.panels.slice import SlicePanel
 from app.panels.smoothing import SmoothingPanel
@@ -30,6 +31,7 @@ from app.panels.starts import StartsPanel
 from app.panels.status import StatusPanel
 from app.panels.things import ThingsPanel
 from app.panels.timeline import TimelinePanel
+from app.panels.tool import ToolPanel
 from app.panels.tries import TriesPanel
 from app.panels.verdict import VerdictPanel
 from app.store import State
@@ -84,6 +86,7 @@ def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]
         HeaderPanel(gui, actions, skills),
         StatusPanel(gui),
         ProposalPanel(gui, actions),
+        RepositionPanel(gui, actions),
     )
     tabs = gui.add_tab_group()
     with tabs.add_tab("Teach", viser.Icon.HAND_GRAB):
@@ -91,6 +94,7 @@ def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]
             DemonstrationsPanel(gui, actions),
             OfferPanel(gui, actions),
             HandPanel(gui, actions),
+            ToolPanel(gui, actions),
             KindsPanel(gui, actions),
             EncodingPanel(gui, actions),
         )

@@ -1,4 +1,4 @@
-"""Keyboard: undo, redo, play and pause, open and close the hand."""
+"""Keyboard: undo, redo, play and pause, open and close the hand, record by buttons, reposition the arm."""
 
 import viser
 
@@ -19,6 +19,10 @@ class Keys:
         )
         play = gui.add_command("Play or pause", hotkey="space", icon=viser.Icon.PLAYER_PLAY)
         gripper = gui.add_command("Open or close the hand", hotkey="G", icon=viser.Icon.HAND_GRAB)
+        record = gui.add_command("Record by buttons, or stop", hotkey="R", icon=viser.Icon.PLAYER_RECORD)
+        reposition = gui.add_command("Reposition a stuck arm", hotkey="P", icon=viser.Icon.ROTATE)
+        on_command(record, actions.record)
+        on_command(reposition, actions.reposition)
         on_command(self._undo, actions.undo)
         on_command(self._redo, actions.redo)
         on_command(play, self._toggle_play)

@@ -11,6 +11,7 @@ from app.store import State
 AMBER: Final = "light-dark(#b45309,#fbbf24)"
 RED: Final = "light-dark(#C4161C,#FF5A4F)"
 RECORDING: Final = "&#9679; Recording. Let go when the motion is done."
+BY_BUTTONS: Final = "&#9679; Recording. Move the hand by buttons or numbers, then press Stop (key R)."
 
 
 class StatusPanel:
@@ -22,15 +23,18 @@ class StatusPanel:
 
     def draw(self, state: State) -> None:
         """Say the most urgent of these things."""
-        recording = state.hand.recording is not None
-        if self._changed(state.message, state.warning, state.model, recording, state.dragging is None):
+        hand, still = state.hand, state.dragging is None
+        recording = hand.recording is not None
+        by_buttons = hand.aim is not None
+        if self._changed(state.message, state.warning, state.model, recording, by_buttons, still):
             assign(self._line, content=status(state))
 
 
 def status(state: State) -> str:
     """Build the line as HTML, two lines high so that the tabs stay where they are; text is escaped."""
-    if state.hand.recording is not None and state.hand.shortfall is None:
-        line = words.note(RECORDING, strong=True, color=RED)
+    if state.hand.recording is not None and state.hand.shortfall is None and not state.hand.unturned:
+        said = RECORDING if state.hand.aim is None else BY_BUTTONS
+        line = words.note(said, strong=True, color=RED)
     else:
         # The lesson shows what the skill is about; here would be the same sentence again.
         message = "" if state.message == state.document.about else state.message

@@ -19,6 +19,7 @@ from app.scene.placing import Placing
 from app.scene.pulls import checked_point
 from app.scene.replay import Replay
 from app.scene.reproductions import Reproductions, Starts
+from app.scene.rings import ToolRings
 from app.scene.things import Things
 from app.scene.view import Eye
 from app.store import State
@@ -70,6 +71,7 @@ class Scene:
             HandBall(api, actions, clock, self._eye),
             Shortage(api),
             DropLine(api),
+            ToolRings(api, actions),
             Placing(api, actions),
         )
 

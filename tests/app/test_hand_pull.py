@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from app.arm import Arm, Jaco, PlanarArm
-from app.desk import SHORTEST, Desk
+from app.desk import Desk
 from app.document import Document, Place
 from app.driver import RETURN
+from app.leading import SHORTEST
 from tests.app.makers import Mouse, desk_of, taught
 
 WAY = np.array([0.12, 0.06, -0.10])
@@ -289,22 +290,16 @@ def test_closing_the_hand_in_mid_pull_is_recorded(desk: Desk, mouse: Mouse) -> N
     assert np.count_nonzero(np.diff(gripper)) == 1
 
 
-def test_a_hand_moved_by_numbers_arrives_and_records_nothing(arm: Arm) -> None:
+def test_a_hand_moved_by_numbers_arrives_stays_and_records_nothing(arm: Arm) -> None:
     desk = Desk(taught(), arm)
-    before, there = desk.store.document, desk.state().hand.position + WAY
+    mouse, before, there = Mouse(desk), desk.store.document, desk.state().hand.position + WAY
 
-    desk.move_hand(there, 5.0)
+    desk.leading.move(there, mouse.now)
+    mouse.wait(2.0)
 
     assert desk.store.document is before
     assert np.linalg.norm(desk.state().hand.position - there) < 0.005
-
-
-def test_a_hand_moved_by_numbers_stays_there(desk: Desk, mouse: Mouse) -> None:
-    there = mouse.place("/hand") + WAY
-    desk.move_hand(there, mouse.now)
-    mouse.wait(2.0)
-
-    np.testing.assert_allclose(desk.state().hand.position, there, atol=0.005)
+    assert desk.tick(mouse.now, 0.04) is False
 
 
 def test_an_empty_skill_learns_from_what_is_shown() -> None:
@@ -322,8 +317,10 @@ def test_an_empty_skill_learns_from_what_is_shown() -> None:
 
 def test_a_hand_that_numbers_cannot_bring_there_says_so(arm: Arm) -> None:
     desk = Desk(taught(), arm)
+    mouse = Mouse(desk)
 
-    desk.move_hand(FAR_AWAY, 5.0)
+    desk.leading.move(FAR_AWAY, mouse.now)
+    mouse.wait(12.0)
 
     state = desk.state()
     assert state.warning
@@ -333,8 +330,10 @@ def test_a_hand_that_numbers_cannot_bring_there_says_so(arm: Arm) -> None:
 
 def test_a_hand_moved_by_numbers_to_where_it_can_be_says_no_warning(arm: Arm) -> None:
     desk = Desk(taught(), arm)
+    mouse = Mouse(desk)
 
-    desk.move_hand(desk.state().hand.position + WAY, 5.0)
+    desk.leading.move(desk.state().hand.position + WAY, mouse.now)
+    mouse.wait(2.0)
 
     assert not desk.state().warning
 

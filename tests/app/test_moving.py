@@ -263,7 +263,7 @@ def test_the_bent_tube_then_holds_what_was_shown_where_it_was_shown() -> None:
 def test_what_has_no_way_back_is_kept_but_muted_and_the_reason_is_said(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("app.handpull.LOST", -1.0)
+    monkeypatch.setattr("app.drawn.LOST", -1.0)
     desk = desk_of(moved())
     count = len(desk.store.document.demonstrations)
     show(desk, Mouse(desk))

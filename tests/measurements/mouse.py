@@ -72,7 +72,9 @@ def drawn_unevenly(path: FloatArray, habits: Habits, rng: np.random.Generator) -
 def recorded(arm: Arm, path: FloatArray, events: Events) -> Demonstration:
     """Pull the hand of a desk by the events; give what the desk kept."""
     desk = Desk(Document("measured"), arm)
-    desk.move_hand(path[0], 0.0)
+    desk.leading.move(path[0], 0.0)
+    for tick in range(150):
+        desk.tick(0.04 * tick, 0.04)
     hand = desk.state().hand.position
     offset = hand - path[0]
     began = 10.0
