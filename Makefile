@@ -6,8 +6,11 @@ ARGS ?=
 PYTEST := OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/python -m pytest
 NONE_CHOSEN := [ $$? = 5 ]  # what ARGS choose may all be in the other half
 PLAIN := -o addopts="-ra --strict-markers --import-mode=importlib"
-LOCK := UV_CUSTOM_COMPILE_COMMAND="make lock" .venv-lock/bin/uv pip compile pyproject.toml --quiet --upgrade \
-	--generate-hashes --python-version 3.11 --python-platform x86_64-manylinux_2_28 --group build
+LOCK := UV_CUSTOM_COMPILE_COMMAND="make lock" .venv-lock/bin/uv pip compile --quiet --upgrade \
+	--generate-hashes --python-version 3.11 --python-platform x86_64-manylinux_2_28
+# What is compiled while it is installed has a lock file of its own: a machine without a compiler leaves it out.
+COMPILED := movement_primitives
+WHEELS := pyproject.toml --group build --extra physics --extra compare --no-emit-package $(COMPILED)
 
 .PHONY: run test check format bench soak fresh wheel lock ready ready-to-test
 
@@ -43,8 +46,9 @@ wheel: ready-to-test  ## dist/gc_teach-*.whl
 lock:  ## newest versions that pyproject.toml allows, with hashes
 	python3 -m venv .venv-lock
 	.venv-lock/bin/pip install --quiet uv
-	$(LOCK) --extra physics --output-file requirements.lock
-	$(LOCK) --extra physics --extra dev --constraints requirements.lock --output-file requirements-dev.lock
+	$(LOCK) $(WHEELS) --output-file requirements.lock
+	$(LOCK) $(WHEELS) --extra dev --constraints requirements.lock --output-file requirements-dev.lock
+	echo $(COMPILED) | $(LOCK) --no-deps --output-file requirements-compiled.lock -
 
 ready:
 	@docker/setup.sh run

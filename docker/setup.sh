@@ -59,7 +59,7 @@ install_packages() {
 
 # What the environment was made from; the same again means that nothing is to do.
 fingerprint() {
-    { echo "$version"; pwd; cat docker/setup.sh pyproject.toml requirements.lock requirements-dev.lock; } | sha256sum
+    { echo "$version"; pwd; cat docker/setup.sh pyproject.toml requirements*.lock; } | sha256sum
 }
 
 is_ready() {
@@ -83,6 +83,21 @@ install_locked() {
     say "installing what $lock names"
     pip_install --require-hashes --no-deps -r "$lock"
     pip_install --no-deps --no-build-isolation --editable .
+    install_compiled --require-hashes --no-deps -r requirements-compiled.lock
+}
+
+# Methods to compare with: without a compiler all else works, and they say what is missing.
+install_compiled() {
+    if can_compile; then
+        say "compiling movement_primitives, to compare with"
+        pip_install "$@" && return
+    fi
+    say "without DMP and ProMP to compare with: movement_primitives needs a C compiler and Python's headers."
+}
+
+can_compile() {
+    command -v cc >/dev/null && .venv/bin/python -c \
+        'import os, sysconfig; os.stat(os.path.join(sysconfig.get_path("include"), "Python.h"))' 2>/dev/null
 }
 
 install_unlocked() {
@@ -91,6 +106,7 @@ install_unlocked() {
     say "this is Python $version on $(uname -m): without the lock file, and without physics (pybullet), which" \
         "needs Python 3.11 on x86_64."
     pip_install --editable ".$extra"
+    install_compiled --editable '.[compare]'
 }
 
 pip_install() {
