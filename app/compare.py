@@ -15,7 +15,7 @@ from app.comparison import compare as run_comparison
 from app.document import Settings
 from app.files import inspect
 from app.resources import static_folder
-from app.skills import load_skill, skill_names
+from app.skills import load_skill
 
 _DEFAULT = Settings()
 
@@ -52,7 +52,7 @@ def _answer(task: Task, names: tuple[str, ...], starts: int, *, json: bool) -> s
 def _task(file: Path, section: Section | None, align_by: AlignBy, units: Units) -> Task:
     """Open a recording, or a built-in skill with the things in its way."""
     skills = static_folder() / "skills"
-    if str(file) in skill_names(skills) and not file.exists():
+    if not file.suffix and not file.exists():
         document = load_skill(skills, str(file))
         shown = tuple(each.demonstration for each in document.demonstrations if not each.muted)
         return Task(shown, Tube(section or document.settings.section, align_by), document.things)
@@ -71,8 +71,9 @@ def _words(found: Comparison) -> list[str]:
     units = "                [cm]      [cm]      [cm]      [cm]    [m2/s6]      [ms]      [ms]"
     if in_the_way:
         head, units = head + "  clear of  contacts", units + "      [cm]    [runs]"
+    count = "1 start" if len(found.starts) == 1 else f"{len(found.starts)} starts"
     return [
-        f"{len(found.starts)} starts in the first slice{begin}. Half way: how far apart the runs are there.",
+        f"{count} in the first slice{begin}. Half way: how far apart the runs are there.",
         "",
         head,
         units,

@@ -153,8 +153,13 @@ def test_the_command_says_the_same_in_a_table_and_sentences(capsys: pytest.Captu
         assert part in said
 
 
-def test_a_file_that_is_not_there_and_no_skill_is_one_sentence(capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize(("given", "told"), [("nothing.csv", "nothing.csv"), ("reeching", "reaching")])
+def test_what_is_no_file_and_no_skill_is_one_sentence(
+    given: str, told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     with pytest.raises(SystemExit):
-        main(["compare", "no_such_thing.csv"])
+        main(["compare", given])
 
-    assert "no_such_thing.csv" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert told in said
+    assert said.count("\n") == 1

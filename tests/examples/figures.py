@@ -10,6 +10,8 @@ import matplotlib as mpl
 import numpy as np
 from PIL import Image
 
+from app.arm.shapes import Shape, pose_of
+from app.scene.things import body
 from gc_core import GeneralizedCylinder
 from gc_core.arrays import FloatArray
 
@@ -18,7 +20,7 @@ import matplotlib.pyplot as plt
 
 DEMONSTRATION, DIRECTRIX, TUBE, REPRODUCTION, GOAL = "#C4161C", "#1F3FA8", "#8E96A6", "#E04BDC", "#F2BA1A"
 REFINED = "#1A9E73"
-INK, PALE = "#3A3F49", "#DDE1E6"
+INK, PALE, THING = "#3A3F49", "#DDE1E6", "#8A7C6B"
 OUTLINES = 24
 """Slices whose outline is drawn on a tube, so that its shape can be seen."""
 
@@ -92,6 +94,13 @@ def lines(axes: Any, paths: list[FloatArray], label: str, **style: Any) -> None:
     """Draw paths (K, 3) or (K, 2), with one entry in the legend."""
     for j, path in enumerate(paths):
         axes.plot(*path.T, label=label if j == 0 else None, **style)
+
+
+def thing(axes: Any, shape: Shape) -> None:
+    """Draw what stands in the way, as the scene does."""
+    vertices, faces = body(shape)
+    corners = vertices @ pose_of(shape)[:3, :3].T + pose_of(shape)[:3, 3]
+    axes.plot_trisurf(*corners.T, triangles=faces, color=THING, alpha=0.55, shade=True, linewidth=0, zorder=0)
 
 
 def arrows(axes: Any, places: FloatArray, moves: FloatArray) -> None:

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from app.comparison import claims
 from gc_core import GeneralizedCylinder, Reproduction, metrics
 
 HERE = Path(__file__).resolve().parent
@@ -32,6 +33,7 @@ SHOWN = {
     "08_both_ends": (BLUE, MAGENTA, YELLOW),
     "09_incremental_refinement": (RED, BLUE, MAGENTA, GREEN),
     "10_constraint": (MAGENTA, GREEN),
+    "11_comparison": (RED, MAGENTA),
 }
 LARGEST_FIGURE = 150_000
 """Bytes of a figure in the docs."""
@@ -172,6 +174,15 @@ def test_runs_above_the_lid_obey_and_the_run_below_is_the_same_object(run: Runne
         False,
         True,
     ]
+
+
+def test_only_the_cylinder_keeps_five_starts_apart(run: Runner) -> None:
+    found = run("11_comparison")["found"]
+    told = claims(found)
+
+    assert {row.method for row in found.rows if row.failed is None} >= {"gc", "ramp"}
+    assert [claim.sentence for claim in told if not claim.holds] == []
+    assert all(row.contacts == 0 for row in found.rows if row.method == "gc")
 
 
 @pytest.mark.parametrize("name", NAMES)
