@@ -62,4 +62,5 @@ class ToolRings:
         if event.client is None:
             return
         self._pulled = event.phase != "end"
-        self._actions.turn_tool(event.target.wxyz)  # checked there
+        # A copy: viser writes into its own array. It is checked where it is used.
+        self._actions.turn_tool(np.array(event.target.wxyz))
