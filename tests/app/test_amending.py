@@ -5,13 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from app import correcting
 from app.actions import Drag, Phase
 from app.amending import ONLY_THE_HAND
 from app.compliance import MEDIUM
 from app.correcting import NOTHING
 from app.desk import Desk
 from app.document import FloatArray
-from app.proposal import DISCARDED, FIRST_ANSWER
+from app.proposal import DISCARDED, FIRST_ANSWER, Proposal
+from app.replaying import Corrected, Subject
 from app.store import State
 from tests.app.makers import TICK, Mouse
 
@@ -275,3 +277,19 @@ def test_a_pointer_that_rests_does_not_pull_a_hand_that_comes_nearer(desk: Desk,
     mouse.wait(6.0)
 
     assert desk.state().message == NOTHING
+
+
+def test_every_event_of_a_pull_is_used(desk: Desk, mouse: Mouse, monkeypatch: pytest.MonkeyPatch) -> None:
+    kept: list[Corrected] = []
+
+    def proposed(subject: Subject, corrected: Corrected) -> Proposal:
+        kept.append(corrected)
+        return original(subject, corrected)
+
+    original = correcting.proposed
+    monkeypatch.setattr(correcting, "proposed", proposed)
+    replay(desk, mouse)
+    mouse.pull("/hand", ASIDE, events=17)
+    mouse.wait(6.0)
+
+    assert kept[0].events == 1 + 17 + 1
