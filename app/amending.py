@@ -109,7 +109,7 @@ class Amending:
     def offer(self, proposal: Proposal) -> Said:
         """Let a correction wait for its answer, and show what it would do."""
         self._pending = Pending(proposal)
-        return f"{proposal.sentence} Choose in Fix what becomes of it.", False
+        return f"{proposal.sentence} Choose what becomes of it.", False
 
     def preview(self, choice: int) -> None:
         """Show what another choice would do."""

@@ -15,7 +15,7 @@ from gc_core import GcError
 DISCARD: Final = "Discard"
 """What every proposal offers last."""
 DISCARDED: Final = "Discarded. Everything is as it was."
-FIRST_ANSWER: Final = "First say what becomes of the correction: choose in Fix, or press Undo to discard it."
+FIRST_ANSWER: Final = "First say what becomes of the correction, above the tabs; Undo discards it."
 LOST: Final = "What was corrected is not there any more, so the correction was not kept."
 CHANGED_BY: Final = 0.001
 """A run that moves less than this does not change [m]."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
-from app.document import Box, Ring, SectionKind, Shape
+from app.document import Box, Cylinder, Ring, SectionKind, Shape
 from app.skills.motion import Plan
 
 
@@ -161,6 +161,7 @@ PICK: Final = Recipe(
     ),
     section="closed_spline",
     goal=_PUT_DOWN,
+    things=(Cylinder("cup", (0.36, -0.32, 0.03), 0.02, 0.06, mass=0.1),),
     starts=((0.7, 0.6), (0.7, 3.8)),
     law={"ends_to_middle": 0.25, "grip_m": 0.03, "reproduction_end_m": 0.02},
     new_starts=((0.46, -0.22, 0.06), (0.24, -0.46, 0.06), (0.46, -0.44, 0.06), (0.24, -0.24, 0.16)),

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from pathlib import Path
 from threading import Event
 
 import numpy as np
@@ -18,6 +19,7 @@ from app.arm.shapes import Box, Cylinder, Shape
 from app.desk import Desk
 from app.document import Document, Settings, Shown
 from app.simulating import SupersededError, simulate
+from app.skills import load_skill
 from app.store import Task
 from app.trial import Trial
 from app.trials import Trials
@@ -28,6 +30,7 @@ needs_pybullet = pytest.mark.skipif(
     missing() is not None, reason="pybullet is not installed (the extra `physics`)"
 )
 
+SKILLS = Path(__file__).resolve().parents[2] / "static" / "skills"
 FROM, TO = np.array([0.12, -0.5, 0.068]), np.array([-0.15, -0.48, 0.068])
 CUP = Cylinder("cup", (0.12, -0.5, 0.03), 0.02, 0.06, mass=0.1)
 CUBE = Box("cube", (-0.2, -0.48, 0.2), (0.06, 0.2, 0.4))
@@ -218,3 +221,19 @@ def test_a_run_that_physics_cannot_begin_says_why(jaco: Jaco) -> None:
 
     assert "deep in the block where the path begins" in trial.said[0]
     assert trial.played is None
+
+
+@needs_pybullet
+def test_the_cup_of_pick_and_place_is_carried_to_where_the_hand_opens(
+    jaco: Jaco,
+) -> None:
+    document = load_skill(SKILLS, "pick_and_place")
+    desk = Desk(document, jaco)
+    desk.state()
+    trial = tried(desk)
+    assert trial.played is not None
+    end = trial.played.objects["cup"][-1, :3, 3]
+
+    assert [carried.object for carried in trial.played.carried] == ["cup"]
+    assert np.linalg.norm(end[:2] - desk.model.runs[0].reproduction.positions[-1, :2]) < 0.03
+    assert trial.played.objects["cup"][-1, 2, 2] > 0.99
