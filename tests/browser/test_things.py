@@ -1,4 +1,4 @@
-"""A box is put in the way with a real mouse: the hand that is pulled towards it stops, and the words say why."""
+"""A box is put in the way with a real mouse: the hand pulled towards it stops, and the words say why."""
 
 from __future__ import annotations
 
