@@ -18,14 +18,14 @@ NUDGE: Final = np.deg2rad(10.0)
 """One press of a button [rad]."""
 ON: Final = ("↻ x", "↻ y", "↻ z")
 BACK: Final = ("↺ x", "↺ y", "↺ z")
-HOLD: Final = "Hold the tool as it is"
+HOLD: Final = "Hold the tool"
 
 
 class ToolPanel:
     """Turns the tool by the arm, and keeps it so while the hand is moved.
 
-    What is not held points down by itself and gives way only where the hand could not go otherwise: a tool
-    that never gave way would be stuck in half of the workspace (docs of the arm: 50 % of one recorded skill).
+    What is not held points down by itself and gives way only where the hand could not go otherwise. That is
+    what a teacher expects of a locked tool; one that never gave way would reach half of a recorded skill.
     """
 
     def __init__(self, gui: viser.GuiApi, actions: Actions) -> None:
@@ -33,7 +33,11 @@ class ToolPanel:
         self._angles: FloatArray = np.zeros(3)
         with gui.add_folder("Turn the tool", expand_by_default=False):
             self._held: Binding[bool] = Binding(
-                gui.add_checkbox(HOLD, False, hint="Off: it turns freely; it points down where it can."),
+                gui.add_checkbox(
+                    HOLD,
+                    False,
+                    hint="As it is turned now. Off: it turns freely, and points down where it can.",
+                ),
                 read=lambda state: state.view.tool is not None,
                 write=actions.hold_tool,
                 accept=anything,
@@ -51,7 +55,7 @@ class ToolPanel:
                 group.hint = "About the tool's own axes; it points along its z."
                 on_choice(group, partial(_nudge, actions, sign))
             self._rings: Binding[bool] = Binding(
-                gui.add_checkbox("Rings at the hand", False, hint="Pull a ring to turn the tool."),
+                gui.add_checkbox("Rings", False, hint="Pull one of the rings at the hand to turn the tool."),
                 read=lambda state: state.view.rings,
                 write=lambda rings: actions.look(rings=bool(rings)),
                 accept=anything,

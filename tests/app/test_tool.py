@@ -17,7 +17,7 @@ from app.turning import DOWN, apart, from_angles
 from tests.app.site import library_in
 from tests.support.fake_client import FakeClient
 
-HOLD, FIELD, RINGS = "Hold the tool as it is", "Tool turned [°]", "Rings at the hand"
+HOLD, FIELD, RINGS = "Hold the tool", "Tool turned [°]", "Rings"
 OPPOSITE = np.array([0.068, -0.91, 0.05])
 TILTED = from_angles(np.radians([20.0, -10.0, 30.0]))
 _numbers = itertools.count()
