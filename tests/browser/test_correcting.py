@@ -13,6 +13,7 @@ import pytest
 
 from app import correcting
 from app.compliance import MEDIUM
+from app.panels.replay import SPEEDS
 from app.proposal import Proposal
 from app.replaying import Corrected, Subject
 from app.scene.view import VIEWS
@@ -23,9 +24,9 @@ from tests.support.chromium import Pixel, ViserPage
 pytestmark = pytest.mark.browser
 
 PULL = 0.08
-SPEED = 0.25
+SPEED = 0.08
 LINE, RUN = "/demonstrations/0/line", "/reproductions/0/line"
-RIGHT = 690.0
+RIGHT = 745.0
 """The hand comes from beside the panel: it is pulled when it is this far to the left [px]."""
 HELD = "You hold the hand."
 
@@ -67,6 +68,9 @@ def test_a_hand_pulled_aside_during_a_replay_yields_as_the_stiffness_says_and_is
 
     original = correcting.proposed
     monkeypatch.setattr(correcting, "proposed", proposed)
+    # Slower than a person may choose: a page drawn in software takes seconds to catch a hand and to let go.
+    monkeypatch.setattr("app.compliance.SLOWEST", SPEED)
+    monkeypatch.setitem(SPEEDS, "¼×", SPEED)
     tab = (person := visit()).tab
     person.pause()
     before = person.work()
@@ -84,9 +88,8 @@ def test_a_hand_pulled_aside_during_a_replay_yields_as_the_stiffness_says_and_is
         tab.page.mouse.move(x + by[0], y + by[1] + (time.perf_counter() < until - 0.2) * next(trembling))
     tab.release()
     tab.wait_until(lambda: not tab.shows(HELD))
-    tab.page.wait_for_timeout(1000)
-    if tab.shows("Stop"):
-        person.press_exactly("Stop")
+    tab.page.wait_for_timeout(1500)
+    person.press_exactly("Stop")
     tab.wait_until(lambda: tab.shows("Correction of"))
     tab.wait_drawn()
     person.press_exactly("Accept")
