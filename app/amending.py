@@ -4,20 +4,25 @@ At most one replay runs and at most one correction waits. Both end cleanly whate
 happens: nothing reaches the document but by `Amending.answer`, as one undo step.
 """
 
+from dataclasses import replace
 from typing import Final
 
-from app import compliance, correcting
+from app import compliance, correcting, linepull
 from app.actions import Drag
-from app.document import Document, View
+from app.document import Document, FloatArray, View
+from app.linepull import LinePull
 from app.model import Model
 from app.proposal import DISCARDED, FIRST_ANSWER, LOST, Pending, Proposal
-from app.replaying import Replaying, subject_of
+from app.replaying import Replaying
 from app.stage import Stage
 from app.store import Progress, Store
+from app.subject import subject_of
 
 CHOOSE: Final = "There is nothing to replay yet. Choose a demonstration or a run."
 PULL_IT: Final = "Pull the hand where the motion should be otherwise; let go, and it eases back."
 ONLY_THE_HAND: Final = "While it replays only the hand can be pulled. Press Stop to work on something else."
+SLIP: Final = 0.001
+"""A line pulled by less than this was pulled by a slip of the hand [m]."""
 _FEELS: Final = {feel.name: feel for feel in compliance.FEELS}
 
 Said = tuple[str, bool]
@@ -31,6 +36,7 @@ class Amending:
         self._stage, self._store = stage, store
         self._replay: Replaying | None = None
         self._pending: Pending | None = None
+        self._aside: Pending | None = None
 
     @property
     def replays(self) -> bool:
@@ -53,6 +59,11 @@ class Amending:
         return None if self._replay is None else self._replay.progress()
 
     @property
+    def undo_name(self) -> str | None:
+        """What undo would take back before anything else."""
+        return None if self._pending is None else self._pending.proposal.choices[0].name
+
+    @property
     def proposal(self) -> Proposal | None:
         """The correction that waits."""
         return None if self._pending is None else self._pending.proposal
@@ -65,8 +76,8 @@ class Amending:
 
     def start(self, view: View, model: Model, now: float) -> Said:
         """Replay what the view names, unless a correction waits."""
-        if self.waits:
-            return FIRST_ANSWER, True
+        if (asked := self.settle("/hand", now)) is not None:
+            return asked
         subject = subject_of(view.replay, model)
         if subject is None:
             return CHOOSE, True
@@ -115,6 +126,70 @@ class Amending:
         """Show what another choice would do."""
         if self._pending is not None:
             self._pending.preview(choice)
+
+    def grab(self, drag: Drag, model: Model, width: float) -> LinePull | None:
+        """Take hold of a line; one whose correction waits is pulled further.
+
+        Parameters
+        ----------
+        drag : Drag
+            The press.
+        model : Model
+            What is shown.
+        width : float
+            How far the pull reaches along the line to either side [m].
+
+        Returns
+        -------
+        LinePull or None
+            None for what is no line.
+        """
+        waiting = None if self._pending is None else self._pending.proposal
+        within = self._stage.arm.unreachable
+        pull = linepull.take(drag.node, drag.grabbed, model, width, unreachable=within, waiting=waiting)
+        if pull is not None:
+            self._aside, self._pending = self._pending, None
+        return pull
+
+    def pulled(self, pull: LinePull, by: FloatArray) -> Said:
+        """Offer what became of a line, unless the arm cannot follow it; a slip changes nothing."""
+        self._pending, self._aside = self._aside, None
+        if pull.reached(by).moved < SLIP:
+            return "", False
+        proposal = pull.proposal(by)
+        proposal.choices[proposal.previewed].apply(self._store.document)  # raises what is wrong with it
+        fault = linepull.unfollowable(self._stage.arm, proposal)
+        if not fault:
+            return self.offer(proposal)
+        choices = tuple(choice for choice in proposal.choices if not choice.records)
+        if choices:
+            self._pending = Pending(replace(proposal, choices=choices, previewed=0))
+        return fault, True
+
+    def settle(self, node: str, now: float) -> Said | None:
+        """Make room for another pull: whoever goes on accepts what there is only one thing to do with.
+
+        Parameters
+        ----------
+        node : str
+            What is grabbed.
+        now : float
+            Session time [s].
+
+        Returns
+        -------
+        Said or None
+            None where the pull may begin: no question is open, or only about the line that is grabbed.
+        """
+        if self._pending is None:
+            return None
+        proposal = self._pending.proposal
+        if proposal.subject is not None and proposal.subject.node == node:
+            return None
+        if len(proposal.choices) > 1:
+            return FIRST_ANSWER, True
+        said = self.answer(0, now)
+        return said if said is not None and said[1] else None
 
     def discard(self) -> Said | None:
         """Forget the correction that waits, if there is one."""

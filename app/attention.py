@@ -1,8 +1,9 @@
 """What a person must know at once, before whatever was said last."""
 
-from app import bending
+from app import bending, effects
 from app.arm.protocol import Arm, Shortfall
 from app.grasp import Grasp
+from app.linepull import LinePull
 from app.model import Model
 from app.store import Hand
 
@@ -15,11 +16,11 @@ def urgent(hand: Hand, held: Grasp | None, model: Model, arm: Arm) -> tuple[str,
         return f"The tool cannot be turned any farther: {hand.unturned}.", True
     if held is not None and held.problem:
         return held.problem, True
-    if model.problem is not None:
-        return model.problem, True
-    inside_out = bending.folds(model)
-    if inside_out is not None:
-        return inside_out, True
+    wrong = model.problem or bending.folds(model)
+    if wrong is not None:
+        return wrong, True
+    if held is not None and isinstance(held.pull, LinePull):
+        return _pulled(held.pull, held, model)
     kind, _, which = ("" if held is None else held.node).strip("/").partition("/")
     return bending.following(model, which, arm) if kind in {"landmarks", "turns"} else None
 
@@ -31,3 +32,13 @@ def _cannot_follow(short: Shortfall) -> str:
     return (
         f"The arm is stuck here{stopped}. Another posture brings the hand there: reposition the arm (key P)."
     )
+
+
+def _pulled(pull: LinePull, held: Grasp, model: Model) -> tuple[str, bool]:
+    """Say what pulling a line does to the runs, or why it goes no further."""
+    reach = pull.reached(held.track.displacement)
+    if reach.why:
+        return f"The arm cannot follow there: {reach.why}. The line stays where the arm can go.", True
+    effect = effects.on_runs(pull.subject.among, model)
+    said = f"{effect[0].upper()}{effect[1:]}. " if effect else ""
+    return f"{said}The pull is {100.0 * pull.width:.0f} cm wide (Page up: wider, Page down: narrower).", False

@@ -12,8 +12,10 @@ from scipy.spatial.transform import (  # pyright: ignore[reportMissingTypeStubs]
 from app import bending, drawn, edits
 from app.document import Document, FloatArray
 from app.proposal import Choice, Proposal
-from app.replaying import Corrected, Subject
+from app.replaying import Corrected
+from app.subject import Subject
 from gc_core import Constraint, Demonstration, Reproduction
+from gc_core import as_demonstration as demonstration_of
 
 NOTHING: Final = "Nothing was corrected: the hand was not pulled during the replay."
 
@@ -25,18 +27,56 @@ def proposed(subject: Subject, corrected: Corrected) -> Proposal:
     joins the others.
     """
     path = subject.path
-    choices = (
-        (_replacing(subject, path, corrected),)
-        if isinstance(path, Demonstration)
-        else (_ruling(subject, path, corrected), _teaching(subject, path, corrected))
-    )
+    name = path.name if isinstance(path, Demonstration) else f"Corrected {subject.name}"
+    made = as_demonstration(path, corrected, name)
     return Proposal(
         title=f"Correction of {subject.name}",
         sentence=f"You moved the hand by up to {bending.length(corrected.farthest)}.",
-        choices=choices,
+        choices=(_replacing(subject, path, made),)
+        if isinstance(path, Demonstration)
+        else (_ruling(subject, path, as_run(path, corrected)), _teaching(subject, made)),
         among=subject.among,
         before=path.positions,
         after=corrected.positions,
+    )
+
+
+def reshaped(subject: Subject, positions: FloatArray) -> Proposal:
+    """Offer what can be done with a line that was pulled; its timing stays.
+
+    Parameters
+    ----------
+    subject : Subject
+        What was pulled, as it was before, of K samples.
+    positions : (K, 3) array
+        Where its samples are now [m].
+
+    Returns
+    -------
+    Proposal
+        With the same choices as `proposed`.
+
+    Raises
+    ------
+    GcError
+        If that is no demonstration.
+    """
+    path = subject.path
+    away = float(np.linalg.norm(positions - path.positions, axis=1).max())
+    if isinstance(path, Demonstration):
+        choices = (_replacing(subject, path, replace(path, positions=positions)),)
+    else:
+        moved = replace(path, positions=positions)
+        shown = demonstration_of(moved, f"Corrected {subject.name}")
+        choices = (_ruling(subject, path, moved), _teaching(subject, shown))
+    return Proposal(
+        title=f"Correction of {subject.name}",
+        sentence=f"You pulled the line by up to {bending.length(away)}.",
+        choices=choices,
+        among=subject.among,
+        before=path.positions,
+        after=positions,
+        subject=subject,
     )
 
 
@@ -60,9 +100,7 @@ def as_run(run: Reproduction, corrected: Corrected) -> Reproduction:
     return replace(run, positions=run.positions + np.stack(at, axis=1))
 
 
-def _replacing(subject: Subject, original: Demonstration, corrected: Corrected) -> Choice:
-    made = as_demonstration(original, corrected, original.name)
-
+def _replacing(subject: Subject, original: Demonstration, made: Demonstration) -> Choice:
     def apply(document: Document) -> Document:
         for index, shown in enumerate(document.demonstrations):
             if shown.demonstration is original:
@@ -78,8 +116,8 @@ def _replacing(subject: Subject, original: Demonstration, corrected: Corrected) 
     )
 
 
-def _ruling(subject: Subject, run: Reproduction, corrected: Corrected) -> Choice:
-    rule = Constraint.from_correction(run, as_run(run, corrected))
+def _ruling(subject: Subject, run: Reproduction, moved: Reproduction) -> Choice:
+    rule = Constraint.from_correction(run, moved)
 
     def apply(document: Document) -> Document:
         # A rule is kept as if nothing had been moved; landmarks carry it along.
@@ -91,11 +129,11 @@ def _ruling(subject: Subject, run: Reproduction, corrected: Corrected) -> Choice
         "All runs keep to your side of it from now on; what was taught stays as it is.",
         f"add a rule from {subject.name}",
         apply,
+        records=False,
     )
 
 
-def _teaching(subject: Subject, run: Reproduction, corrected: Corrected) -> Choice:
-    made = as_demonstration(run, corrected, f"Corrected {subject.name}")
+def _teaching(subject: Subject, made: Demonstration) -> Choice:
     kept = drawn.taken_back(made, subject.among)
     return Choice(
         "Teach it",

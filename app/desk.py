@@ -6,10 +6,9 @@ a whole session in no time. The session calls it from its mailbox and draws `sta
 
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from typing import Any, Final
 
-from app import attention, edits, gesture, judgement
+from app import attention, gesture, judgement
 from app.actions import Drag
 from app.amending import Amending, Said
 from app.arm.protocol import Arm
@@ -19,9 +18,9 @@ from app.gesture import Pull
 from app.grasp import Grasp
 from app.handpull import HandPull
 from app.leading import Leading
+from app.linepull import LinePull
 from app.model import learn
 from app.offering import Offering
-from app.proposal import FIRST_ANSWER
 from app.stage import Stage
 from app.store import Plan, Playback, State, Store
 from app.surroundings import conditions_of
@@ -65,7 +64,8 @@ class Desk:
             plan=self.stage.plan(self.model),
             plans=self.stage.plans(self.model),
             dragging=self.amending.holds if self._held is None else self._held.node,
-            undo_name=self.store.undo_name,
+            correction=None if self._held is None else self._held.correction,
+            undo_name=self.amending.undo_name or self.store.undo_name,
             redo_name=self.store.redo_name,
             message=message,
             warning=warning,
@@ -148,6 +148,8 @@ class Desk:
         """Change what is looked at."""
         self.view = replace(self.view, **changes)
         self._set_stage()
+        if self._held is not None:
+            self._held.widen(self.view.pull_width)
 
     def toggle_gripper(self) -> None:
         """Open or close the hand; recorded while it is pulled."""
@@ -164,19 +166,15 @@ class Desk:
         self.say(self._offering.take_in(reading))
 
     def accept_file(self, unit: Unit, frame: Frame, now: float) -> None:
-        """Take over the demonstrations of the offered file.
-
-        They join a skill of one's own; next to a built-in one they open as a new skill.
-        """
+        """Add the demonstrations of the offered file; next to a built-in skill they open as a new one."""
         accepted = self._offering.accepted(unit, frame)
         if accepted is None:
             return
-        name, summary, demonstrations = accepted
         if self.store.document.built_in:
-            self.open(edits.skill_of(Path(name).stem, demonstrations), now)
+            self.open(accepted.skill(), now)
         else:
-            self.edit(lambda d: edits.add_demonstrations(d, demonstrations), f"add {name}", now=now)
-        self.say(f"{name}: {summary}")
+            self.edit(accepted.join, f"add {accepted.name}", now=now)
+        self.say(f"{accepted.name}: {accepted.summary}")
 
     def decline_file(self) -> None:
         """Forget the offered file."""
@@ -236,12 +234,11 @@ class Desk:
         """Begin, continue or end a pull."""
         if self.amending.replays:
             return self.amend(lambda a: a.drag(drag))
-        if self.amending.waits and drag.phase == "start":
-            self.let_go(drag.time)
-            return self.say(FIRST_ANSWER, warning=True)
         held = self._held
         if drag.phase == "start" and (held is None or not held.goes_on(drag)):
             self.let_go(drag.time)
+            if (asked := self.amending.settle(drag.node, drag.time)) is not None:
+                return self.say(asked[0], warning=asked[1])
             self._learned()  # an edit or a release may not be learned yet
             held = self._held = self._grab(drag)
         elif held is not None and held.takes(drag):
@@ -250,12 +247,13 @@ class Desk:
             self.stage.driver.pulled(held.pull.advance(drag.time))
 
     def _grab(self, drag: Drag) -> Grasp | None:
-        pull: Pull | HandPull | None
+        pull: Pull | HandPull | LinePull | None
         if drag.node == "/hand":
             pull = self.take_hand(drag.time, records=not drag.aside)
             self.stage.pause()
         else:
-            pull = gesture.pull_on(drag.node, drag.grabbed, self.model, self.view.pull_width, drag.eye)
+            line = self.amending.grab(drag, self.model, self.view.pull_width)
+            pull = line or gesture.pull_on(drag.node, drag.grabbed, self.model, drag.eye)
         if pull is None:
             return None
         self.say("")
@@ -285,6 +283,8 @@ class Desk:
         pull = held.pull
         if isinstance(pull, HandPull):
             self.leading.let_go(pull, pull.finish(), now, held.before)
+        elif isinstance(pull, LinePull):
+            self.amend(lambda a: a.pulled(pull, held.track.displacement))
         elif held.moved >= SLIP:
             self.store.edit(lambda d: pull.apply(d, held.track.displacement), pull.name, now=now)
             if pull.node.startswith("/start/"):

@@ -17,7 +17,6 @@ from app.actions import Drag
 from app.document import Document, FloatArray
 from app.measures import TABLE
 from app.model import Model
-from gc_core import Constraint, Demonstration, soft_correction
 
 GRACE: Final = 0.15
 """A pull that ends and begins again on the same thing within this time is one [s]."""
@@ -105,10 +104,8 @@ class Pull:
     """The edit, given the displacement [m]."""
 
 
-def pull_on(
-    node: str, grabbed: FloatArray, model: Model, width: float, eye: FloatArray | None = None
-) -> Pull | None:
-    """Find out what a pull means from what was grabbed.
+def pull_on(node: str, grabbed: FloatArray, model: Model, eye: FloatArray | None = None) -> Pull | None:
+    """Find out what a pull means from what was grabbed; lines are another matter, see `app.linepull`.
 
     Parameters
     ----------
@@ -118,8 +115,6 @@ def pull_on(
         The point that was grabbed [m].
     model : Model
         What is shown.
-    width : float
-        How far along a line a pull reaches to either side [m].
     eye : (3,) array, optional
         The camera [m], where it is known.
 
@@ -137,18 +132,9 @@ def pull_on(
         return _pull_thing(node, which, model)
     if kind == "sizes":
         return _pull_side(node, which, grabbed, model, eye)
-    return _pull_numbered(node, grabbed, model, width)
-
-
-def _pull_numbered(node: str, grabbed: FloatArray, model: Model, width: float) -> Pull | None:
-    kind, _, which = node.strip("/").partition("/")
     index = int(which) if which.isdecimal() else -1
     if kind == "start" and 0 <= index < len(model.runs):
         return _pull_start(node, index, model)
-    if kind == "demonstrations" and 0 <= index < len(model.source.demonstrations):
-        return _pull_demonstration(node, index, grabbed, model, width)
-    if kind == "reproductions" and 0 <= index < len(model.runs):
-        return _pull_reproduction(node, index, grabbed, model, width)
     return None
 
 
@@ -228,39 +214,6 @@ def _pull_start(node: str, index: int, model: Model) -> Pull:
     return Pull(node, "move start", apply)
 
 
-def _pull_demonstration(node: str, index: int, grabbed: FloatArray, model: Model, width: float) -> Pull:
-    original = model.source.demonstrations[index].demonstration
-    nearest = _nearest(original.positions, grabbed)
-
-    def apply(document: Document, by: FloatArray) -> Document:
-        positions = soft_correction(original.positions, nearest, by, width)
-        return edits.replace_demonstration(document, index, corrected(original, positions))
-
-    return Pull(node, f"correct {original.name}", apply)
-
-
-def _pull_reproduction(node: str, index: int, grabbed: FloatArray, model: Model, width: float) -> Pull:
-    original = model.runs[index].reproduction
-    nearest = _nearest(original.positions, grabbed)
-
-    def apply(document: Document, by: FloatArray) -> Document:
-        positions = soft_correction(original.positions, nearest, by, width)
-        rule = Constraint.from_correction(original, replace(original, positions=positions))
-        # A rule is kept as if nothing had been moved; landmarks carry it along.
-        return edits.add_rule(document, model.rule_taken_back(rule))
-
-    return Pull(node, "add a rule", apply)
-
-
-def corrected(original: Demonstration, positions: FloatArray) -> Demonstration:
-    """Give a demonstration other positions; its timing, orientations and gripper stay."""
-    return replace(original, positions=positions)
-
-
 def _above(position: FloatArray) -> FloatArray:
     """Keep what stands on the table from being pulled below it, which a flat pointer does easily."""
     return np.maximum(position, [-np.inf, -np.inf, TABLE])
-
-
-def _nearest(positions: FloatArray, grabbed: FloatArray) -> int:
-    return int(np.argmin(np.linalg.norm(positions - grabbed, axis=1)))

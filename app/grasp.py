@@ -9,7 +9,9 @@ from app.actions import Drag
 from app.document import Document
 from app.gesture import Pull, Track
 from app.handpull import HandPull
+from app.linepull import LinePull
 from app.model import Model
+from app.proposal import Correction
 from gc_core import GcError
 
 
@@ -17,7 +19,7 @@ from gc_core import GcError
 class Grasp:
     """One pull in progress."""
 
-    pull: Pull | HandPull
+    pull: Pull | HandPull | LinePull
     track: Track
     before: Model
     """What was shown when it was grabbed."""
@@ -29,6 +31,8 @@ class Grasp:
     """Why it cannot be pulled any farther."""
     _basis: object = None
     _preview: Document | None = None
+    _corrected: tuple[object, Track] | None = None
+    _correction: Correction | None = None
 
     @property
     def node(self) -> str:
@@ -43,6 +47,16 @@ class Grasp:
     def takes(self, drag: Drag) -> bool:
         """Whether an event belongs to this pull."""
         return self.node == drag.node and (not isinstance(self.pull, HandPull) or self.pull.pointed)
+
+    @property
+    def correction(self) -> Correction | None:
+        """The line that is pulled, before and now."""
+        if not isinstance(self.pull, LinePull):
+            return None
+        if self._correction is None or self._corrected != (self.pull, self.track):
+            self._corrected = self.pull, self.track
+            self._correction = self.pull.correction(self.track.displacement)
+        return self._correction
 
     def goes_on(self, drag: Drag) -> bool:
         """Whether a new part of the same pull begins: Shift was pressed or let go in mid-drag."""
@@ -67,10 +81,15 @@ class Grasp:
             target = gesture.drawn_to(goals, target, drag.eye)
         self.pull.aim(drag.time, target)
 
+    def widen(self, width: float) -> None:
+        """Let a pull on a line reach farther, or less far, to either side [m of arc length]."""
+        if isinstance(self.pull, LinePull) and width != self.pull.width:
+            self.pull = self.pull.widened(width)
+
     def shown(self, document: Document) -> Document:
         """Give the document as it would be if this were let go now; the same object while nothing changed."""
-        basis = self.pull.drawn() if isinstance(self.pull, HandPull) else self.track
-        if self._preview is None or self._basis is not basis:
+        basis = self.pull.drawn() if isinstance(self.pull, HandPull) else (self.pull, self.track)
+        if self._preview is None or self._basis != basis:
             self._basis = basis
             try:
                 self._preview, self.problem = self._applied(document), ""

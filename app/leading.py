@@ -16,7 +16,6 @@ from app.grasp import Grasp
 from app.handpull import HandPull
 from app.inquiry import Answer, Inquiry
 from app.model import Model
-from app.proposal import FIRST_ANSWER
 from app.servo import Motion
 from app.store import Hand
 
@@ -68,8 +67,8 @@ class Leading:
             self._desk.let_go(now)
         else:
             self._desk.let_go(now)
-            if self._desk.amending.waits:
-                self._desk.say(FIRST_ANSWER, warning=True)
+            if (asked := self._desk.amending.settle("/hand", now)) is not None:
+                self._desk.say(asked[0], warning=asked[1])
                 return
             self._hold(now, records=True)
             self._desk.say("")

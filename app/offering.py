@@ -1,8 +1,30 @@
 """An uploaded file on a desk: looked into, and not accepted yet."""
 
+from dataclasses import dataclass
+from pathlib import Path
+
+from app import edits
+from app.document import Document
 from app.files import Frame, Reading, Unit
 from app.store import Offer
 from gc_core import Demonstration
+
+
+@dataclass(frozen=True, eq=False)
+class Accepted:
+    """What was in a file that is taken over."""
+
+    name: str
+    summary: str
+    demonstrations: list[Demonstration]
+
+    def skill(self) -> Document:
+        """Make a skill of it."""
+        return edits.skill_of(Path(self.name).stem, self.demonstrations)
+
+    def join(self, document: Document) -> Document:
+        """Add it to a skill."""
+        return edits.add_demonstrations(document, self.demonstrations)
 
 
 class Offering:
@@ -26,14 +48,14 @@ class Offering:
         )
         return f"Check what is in {reading.name}, then accept it."
 
-    def accepted(self, unit: Unit, frame: Frame) -> tuple[str, str, list[Demonstration]] | None:
-        """Give name, summary and demonstrations of the file, and offer it no more; None: there is none."""
+    def accepted(self, unit: Unit, frame: Frame) -> "Accepted | None":
+        """Give what is in the file, and offer it no more; None: there is none."""
         reading = self._reading
         if reading is None:
             return None
         demonstrations = reading.accepted(unit, frame)
         self.forget()
-        return reading.name, reading.summary_in(unit), demonstrations
+        return Accepted(reading.name, reading.summary_in(unit), demonstrations)
 
     def forget(self) -> None:
         """Offer nothing any more."""

@@ -10,6 +10,7 @@ from typing import Final
 
 from app.document import Document, FloatArray
 from app.model import Model
+from app.subject import Subject
 from gc_core import GcError
 
 DISCARD: Final = "Discard"
@@ -17,8 +18,18 @@ DISCARD: Final = "Discard"
 DISCARDED: Final = "Discarded. Everything is as it was."
 FIRST_ANSWER: Final = "First say what becomes of the correction, above the tabs; Undo discards it."
 LOST: Final = "What was corrected is not there any more, so the correction was not kept."
-CHANGED_BY: Final = 0.001
-"""A run that moves less than this does not change [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Correction:
+    """A line on its way to another shape."""
+
+    before: FloatArray
+    """(K, 3) what it was [m]."""
+    after: FloatArray
+    """(T, 3) what it is now [m]."""
+    among: Model
+    """What was shown before."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +46,8 @@ class Choice:
     """Of the undo step."""
     apply: Callable[[Document], Document]
     """The edit; the same document where what was corrected is gone."""
+    records: bool = True
+    """Whether it makes a demonstration, which only holds what the arm can do."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +68,8 @@ class Proposal:
     """(T, 3) what it became [m]."""
     previewed: int = 0
     """Which choice is shown."""
+    subject: Subject | None = None
+    """What was pulled by its line, sample by sample, and can be pulled further; None: replayed."""
 
 
 @dataclass(eq=False)

@@ -16,10 +16,10 @@ from app.arm.protocol import Arm
 from app.compliance import Feel, Replayed
 from app.document import FloatArray
 from app.gesture import Track
-from app.model import Model
 from app.route import Route
 from app.servo import Motion
 from app.store import Hand, Progress
+from app.subject import Subject
 from gc_core import Demonstration, Reproduction
 
 MOST_SAMPLES: Final = 400
@@ -38,33 +38,6 @@ SLIP: Final = 0.001
 """A hand that was nowhere moved by more than this was not corrected [m]."""
 _PEAK: Final = 1.875
 """Largest speed of a motion of minimum jerk over its mean speed."""
-
-
-@dataclass(frozen=True, eq=False)
-class Subject:
-    """What is replayed."""
-
-    node: str
-    """Scene name, for instance ``/demonstrations/1``."""
-    name: str
-    """What people call it."""
-    path: Demonstration | Reproduction
-    """As it is shown."""
-    among: Model
-    """What it belongs to."""
-
-
-def subject_of(node: str, model: Model) -> Subject | None:
-    """Find what a scene name stands for; None where it cannot be replayed."""
-    kind, _, which = node.strip("/").partition("/")
-    index = int(which) if which.isdecimal() else -1
-    shown = model.source.demonstrations
-    if kind == "demonstrations" and 0 <= index < len(shown):
-        demonstration = shown[index].demonstration
-        return Subject(node, demonstration.name or f"demonstration {index + 1}", demonstration, model)
-    if kind == "reproductions" and 0 <= index < len(model.runs):
-        return Subject(node, f"run {index + 1}", model.runs[index].reproduction, model)
-    return None
 
 
 @dataclass(frozen=True, eq=False)

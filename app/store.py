@@ -16,7 +16,7 @@ from app.arm.verdict import Verdict
 from app.document import Document, FloatArray, View
 from app.files import Frame, Unit
 from app.model import Model
-from app.proposal import Proposal
+from app.proposal import Correction, Proposal
 from app.shapes import Shapes
 from app.trial import Trial
 from gc_core import Reproduction
@@ -180,6 +180,8 @@ class State:
     """Whether the message says that something is wrong."""
     offer: Offer | None = None
     """A file that waits to be accepted."""
+    correction: Correction | None = None
+    """A line that is being pulled."""
     replay: Progress | None = None
     """A replay that lets itself be corrected."""
     proposal: Proposal | None = None

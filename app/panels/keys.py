@@ -1,9 +1,12 @@
-"""Keyboard: undo, redo, play and pause, open and close the hand, record by buttons, reposition the arm."""
+"""Keyboard: undo, redo, play and pause, the hand and the arm, how far a pull on a line reaches."""
+
+from functools import partial
 
 import viser
 
 from app.actions import Actions
 from app.binding import assign, on_command
+from app.linepull import NARROWEST, WIDER, WIDEST
 from app.store import State
 
 
@@ -27,12 +30,21 @@ class Keys:
         on_command(self._redo, actions.redo)
         on_command(play, self._toggle_play)
         on_command(gripper, actions.toggle_gripper)
+        wider = gui.add_command("Pull wider", hotkey="pageup", icon=viser.Icon.ARROWS_HORIZONTAL)
+        narrower = gui.add_command("Pull narrower", hotkey="pagedown", icon=viser.Icon.ARROWS_HORIZONTAL)
+        on_command(wider, partial(self._widen, WIDER))
+        on_command(narrower, partial(self._widen, 1.0 / WIDER))
 
     def draw(self, state: State) -> None:
         """Name what undo and redo would do."""
         self._state = state
         assign(self._undo, description=state.undo_name)
         assign(self._redo, description=state.redo_name)
+
+    def _widen(self, factor: float) -> None:
+        if self._state is not None:
+            width = self._state.view.pull_width * factor
+            self._actions.look(pull_width=min(max(width, NARROWEST), WIDEST))
 
     def _toggle_play(self) -> None:
         if self._state is not None:

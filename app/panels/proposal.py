@@ -2,13 +2,13 @@
 
 from typing import Final
 
-import numpy as np
 import viser
 
+from app import effects
 from app.actions import Actions
 from app.binding import Changed, assign, on_choice
 from app.panels import words
-from app.proposal import CHANGED_BY, DISCARD, Proposal
+from app.proposal import DISCARD, Proposal
 from app.store import State
 
 MOST: Final = 3
@@ -69,17 +69,5 @@ def asked(proposal: Proposal, state: State) -> str:
 
 def effect(proposal: Proposal, state: State) -> str:
     """Say how many of the shown runs the previewed choice changes, and by how much."""
-    before, after = proposal.among.runs, state.model.runs
-    if not before or len(before) != len(after):
-        return ""
-    moved = [
-        float(np.linalg.norm(a.reproduction.positions - b.reproduction.positions, axis=1).max())
-        if len(a.reproduction.positions) == len(b.reproduction.positions)
-        else np.inf
-        for a, b in zip(before, after, strict=True)
-    ]
-    count = sum(length > CHANGED_BY for length in moved)
-    if count == 0:
-        return "As shown now, no run changes."
-    by = f", by up to {words.cm(max(moved))}" if np.isfinite(max(moved)) else ""
-    return f"As shown now, {count} of {words.count(len(before), 'run')} changes{by}."
+    said = effects.on_runs(proposal.among, state.model)
+    return f"As shown now, {said}." if said else ""

@@ -10,12 +10,12 @@ from app import edits
 from app.actions import Actions
 from app.binding import Binding, Changed, Rows, assign, on_choice
 from app.document import Document, Rule
+from app.linepull import NARROWEST, WIDEST
 from app.panels import words
 from app.store import State
 
-NARROWEST: Final = 2.0
-WIDEST: Final = 60.0
-"""Of a pull [cm]."""
+LEAST, MOST = 100.0 * NARROWEST, 100.0 * WIDEST
+"""Width of a pull [cm]."""
 HOW: Final = (
     "Grab any line and pull. A red line: that demonstration is fixed, and the tube with it (incremental "
     "refinement). A magenta line: the run's correction is kept as a rule (constraint-based refinement)."
@@ -32,15 +32,15 @@ class RulesPanel:
         self._width: Binding[float] = Binding(
             gui.add_slider(
                 "Pull width [cm]",
-                NARROWEST,
-                WIDEST,
+                LEAST,
+                MOST,
                 1.0,
                 20.0,
-                hint="How far along the line a pull reaches to either side.",
+                hint="How far along the line a pull reaches to either side; also by Page up and Page down.",
             ),
-            read=lambda state: round(100.0 * state.view.pull_width, 1),
+            read=lambda state: float(round(100.0 * state.view.pull_width)),
             write=lambda width: actions.look(pull_width=width / 100.0),
-            accept=lambda width: NARROWEST <= width <= WIDEST,
+            accept=lambda width: LEAST <= width <= MOST,
             typed=True,
         )
         self._none = gui.add_html("")

@@ -5,7 +5,6 @@ ends, and what it was before is dashed grey.
 """
 
 from collections.abc import Callable
-from typing import Final
 
 import viser
 
@@ -18,6 +17,7 @@ from app.scene.nodes import Ball, Line, Mesh
 from app.scene.polyline import dashes, segments
 from app.scene.pulls import bind_pull
 from app.scene.style import (
+    DOT_RADIUS,
     DOUBLE,
     FREE,
     PICK_RADIUS,
@@ -30,8 +30,6 @@ from app.scene.style import (
 )
 from app.scene.view import Eye
 from app.store import State
-
-DOT_RADIUS: Final = 0.009
 
 
 class Reproductions:

@@ -56,6 +56,8 @@ OBJECT_HALF: Final = 0.030
 """Half the side of an object's box, and the radius of an obstacle [m]."""
 HANDLE_RADIUS: Final = 0.011
 """Of the balls by which a thing is sized."""
+DOT_RADIUS: Final = 0.009
+"""At the ends of a refined path."""
 GHOST_RADIUS: Final = 0.014
 PICK_RADIUS: Final = 0.010
 """How near to a line the pointer has to be [m]."""

@@ -115,13 +115,19 @@ class Mouse:
         vertical: bool = False,
         aside: bool = False,
         events: int = 12,
+        kept: bool = True,
     ) -> None:
-        """Grab, pull by some way in even steps, let go, and wait until that is taken for the end."""
+        """Grab, pull by some way in even steps, let go, and wait until that is taken for the end.
+
+        When a correction then waits, its first choice is taken, if it is to be kept.
+        """
         self.press(node, at, vertical=vertical, aside=aside)
         for _ in range(events):
             self.move(np.asarray(by, dtype=np.float64) / events)
         self.release()
         self.wait(0.2)
+        if kept and self.desk.amending.waits:
+            self.desk.amend(lambda amending: amending.answer(0, self.now))
 
     def place(self, node: str) -> FloatArray:
         """Where a node of the scene is: the middle of a line, the origin of anything else."""

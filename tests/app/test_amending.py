@@ -227,8 +227,8 @@ def test_only_the_hand_can_be_pulled_while_it_replays(desk: Desk, mouse: Mouse) 
 
 
 def test_a_correction_must_be_answered_before_the_next_pull(desk: Desk, mouse: Mouse) -> None:
-    corrected(desk, mouse)
-    mouse.pull("/landmarks/goal", (0.05, 0.0, 0.0))
+    corrected(desk, mouse, "/reproductions/0")
+    mouse.pull("/landmarks/goal", (0.05, 0.0, 0.0), kept=False)
 
     assert desk.state().message == FIRST_ANSWER
     assert desk.state().proposal is not None

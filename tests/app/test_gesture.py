@@ -10,9 +10,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app import edits, gesture
+from app import edits, gesture, linepull
 from app.actions import Drag
 from app.document import Document, FloatArray
+from app.gesture import Pull
+from app.linepull import LinePull
 from app.model import Model, learn
 from gc_core import same_content
 from tests.app.makers import WIDTH, furnished, place_of, taught
@@ -76,9 +78,17 @@ def test_a_pull_begins_with_what_the_pointer_has_already_moved() -> None:
 
 def pulled(document: Document, node: str, by: FloatArray = BY) -> Document:
     model = learn(document)
-    pull = gesture.pull_on(node, place_of(node, model, GRAB), model, WIDTH)
+    return grabbed(node, model).apply(document, by)
+
+
+def grabbed(node: str, model: Model) -> Pull | LinePull:
+    """Something that is held where one would grab it."""
+    at = place_of(node, model, GRAB)
+    pull = linepull.take(node, at, model, WIDTH, unreachable=lambda _: None) or gesture.pull_on(
+        node, at, model
+    )
     assert pull is not None
-    return pull.apply(document, by)
+    return pull
 
 
 @pytest.mark.parametrize(
@@ -102,11 +112,14 @@ def test_a_pull_changes_what_was_pulled_and_nothing_else(node: str, field: str) 
 
 @pytest.mark.parametrize("node", NOTHING_THERE)
 def test_what_is_not_there_cannot_be_pulled(node: str) -> None:
-    assert gesture.pull_on(node, GRAB, learn(furnished()), WIDTH) is None
+    model = learn(furnished())
+
+    assert gesture.pull_on(node, GRAB, model) is None
+    assert linepull.take(node, GRAB, model, WIDTH, unreachable=lambda _: None) is None
 
 
 def test_a_landmark_without_a_place_cannot_be_pulled() -> None:
-    assert gesture.pull_on("/landmarks/goal", GRAB, learn(Document("empty")), WIDTH) is None
+    assert gesture.pull_on("/landmarks/goal", GRAB, learn(Document("empty"))) is None
 
 
 def test_a_pulled_start_moves_by_the_displacement() -> None:
@@ -137,7 +150,7 @@ def test_the_handle_of_an_object_turns_it_as_far_as_the_pointer_goes_around_it(
     model = with_a_cup()
     document, cup = model.source, model.source.landmarks[2]
     arm = np.array([0.08, 0.02, 0.0])
-    pull = gesture.pull_on("/turns/cup", cup.taught + arm, model, WIDTH)
+    pull = gesture.pull_on("/turns/cup", cup.taught + arm, model)
     cos, sin = np.cos(angle), np.sin(angle)
     there = stretch * np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]]) @ arm
 
@@ -225,8 +238,7 @@ def test_a_rule_that_is_switched_off_gives_the_former_run_back() -> None:
 def test_a_pull_is_measured_from_where_it_began_however_often_it_is_applied(node: str) -> None:
     document = taught()
     model = learn(document)
-    pull = gesture.pull_on(node, place_of(node, model, GRAB), model, WIDTH)
-    assert pull is not None
+    pull = grabbed(node, model)
 
     pull.apply(document, 3.0 * BY)
     once, twice = pull.apply(document, BY), pull.apply(document, BY)
