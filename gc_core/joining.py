@@ -21,6 +21,10 @@ LAST_PART = 1e-3
 """A start in the last plane joins this much before it: a run has two samples at least [stations]."""
 
 
+TIE = 1e-9
+"""A passage so near to where the search ends lies beyond it, lest rounding decide [stations]."""
+
+
 @dataclass(frozen=True, eq=False)
 class Joins:
     """Where S starts join the tube."""
@@ -104,7 +108,7 @@ def entrances(cylinder: GeneralizedCylinder, starts: FloatArray) -> IntArray:
 def _nearest(found: Passages, index: IntArray, back: float) -> IntArray:
     """For each of S starts, its passage nearest to station `index` (S,), less than one after it; or -1."""
     past = found.stations - index[found.rows]
-    near = np.flatnonzero((past < 1.0) & (past >= -1e-9 if back == 0.0 else past > -back))
+    near = np.flatnonzero((past < 1.0 - TIE) & (past >= (TIE - back if back else -TIE)))
     order = near[np.lexsort((np.abs(past[near]), found.rows[near]))]
     rows, first = np.unique(found.rows[order], return_index=True)
     chosen = np.full(len(index), -1, dtype=np.intp)
