@@ -64,7 +64,8 @@ def asked(proposal: Proposal, state: State) -> str:
     )
     discard = f"<li><b>{DISCARD}:</b> {UNCHANGED}</li>"
     listed = f'<ul style="margin:0.25rem 0;padding-left:1.1rem">{choices}{discard}</ul>'
-    return f"{words.escape(proposal.sentence)}{listed}{words.escape(effect(proposal, state))}"
+    wrong = "".join(f" {contradiction.sentence()}" for contradiction in state.model.contradictions)
+    return f"{words.escape(proposal.sentence)}{listed}{words.escape(effect(proposal, state) + wrong)}"
 
 
 def effect(proposal: Proposal, state: State) -> str:

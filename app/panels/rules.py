@@ -6,9 +6,9 @@ from typing import Final
 
 import viser
 
-from app import edits
+from app import biting, edits
 from app.actions import Actions
-from app.binding import Binding, Changed, Rows, assign, on_choice
+from app.binding import Binding, Changed, Rows, anything, assign, on_choice
 from app.document import Document, Rule
 from app.linepull import NARROWEST, WIDEST
 from app.panels import words
@@ -18,10 +18,12 @@ LEAST, MOST = 100.0 * NARROWEST, 100.0 * WIDEST
 """Width of a pull [cm]."""
 HOW: Final = (
     "Grab any line and pull. A red line: that demonstration is fixed, and the tube with it (incremental "
-    "refinement). A magenta line: the run's correction is kept as a rule (constraint-based refinement)."
+    "refinement). A magenta line: you are asked whether its correction is a rule for all runs "
+    "(constraint-based refinement), or one more demonstration."
 )
 DELETE: Final = "Delete"
-OFF, ON = "Switch off", "Switch on"
+SHOW, HIDE = "Show its arrows", "Hide its arrows"
+AMBER: Final = "light-dark(#b45309,#fbbf24)"
 
 
 class RulesPanel:
@@ -51,49 +53,91 @@ class RulesPanel:
         """Follow the rules."""
         self._width.draw(state)
         rules = state.document.rules
-        if self._changed(rules):
-            on = sum(rule.enabled for rule in rules)
-            said = (
-                f"{words.count(len(rules), 'rule')}, {on} switched on." if rules else "There is no rule yet."
-            )
-            assign(self._none, content=words.note(said, strong=True))
+        if self._changed(rules, state.model.contradictions):
+            assign(self._none, content=overview(state))
         for row in self._rows.fit(len(rules)):
             row.draw(state)
 
 
+def overview(state: State) -> str:
+    """Say how many rules there are, and which of them cannot be obeyed together, as HTML."""
+    rules = state.document.rules
+    on = sum(rule.enabled for rule in rules)
+    said = f"{words.count(len(rules), 'rule')}, {on} switched on." if rules else "There is no rule yet."
+    wrong = [
+        words.note(words.escape(one.sentence()), strong=True, color=AMBER)
+        for one in state.model.contradictions
+    ]
+    return words.note(said, strong=True) + "".join(wrong)
+
+
 class RuleRow:
-    """One rule: on or off, delete."""
+    """One rule: on or off, its name, its arrows, delete."""
 
     def __init__(self, gui: viser.GuiApi, actions: Actions, index: int) -> None:
-        self._actions = actions
-        self._index = index
+        self._actions, self._index = actions, index
         self._rule: Rule | None = None
-        self._group = gui.add_button_group(f"Rule {index + 1}", (OFF, DELETE))
-        on_choice(self._group, self._press)
+        self._seen = False
+        self._changed = Changed()
+        self._folder = gui.add_folder(f"Rule {index + 1}")
+        with self._folder:
+            self._on = self._add_on(gui)
+            self._name = self._add_name(gui)
+            self._said = gui.add_html("")
+            self._group = gui.add_button_group(
+                "", (SHOW, DELETE), hint="The arrows say how far each place of the run was corrected (V)."
+            )
+            on_choice(self._group, lambda place: (self._show_arrows, self._delete)[place]())
 
     def show(self, visible: bool) -> None:
         """Show or hide it."""
-        assign(self._group, visible=visible)
+        assign(self._folder, visible=visible)
 
     def draw(self, state: State) -> None:
-        """Show the rule at this place of the list."""
-        rule = state.document.rules[self._index]
-        if rule is not self._rule:
-            self._rule = rule
-            off = "" if rule.enabled else " (off)"
-            assign(self._group, label=rule.name + off, options=(OFF if rule.enabled else ON, DELETE))
+        """Show the rule at this place of the list, and what it does to the runs."""
+        rules = state.document.rules
+        rule = self._rule = rules[self._index]
+        self._seen = state.view.rule in {self._index, self._index - len(rules)}
+        self._on.draw(state)
+        self._name.draw(state)
+        assign(self._folder, label=rule.name if rule.enabled else f"{rule.name} · off")
+        assign(self._group, options=(HIDE if self._seen else SHOW, DELETE))
+        if (state.dragging is None or state.correction) and self._changed(rule, state.model.runs):
+            bite = biting.bites(state.model)[self._index]
+            assign(self._said, content=words.note(words.escape(biting.words(bite, state.model))))
 
-    def _press(self, place: int) -> None:
-        rule = self._rule
-        if rule is None:
-            return
-        if place == 1:
+    def _add_on(self, gui: viser.GuiApi) -> Binding[bool]:
+        def write(on: bool) -> None:
+            if (rule := self._rule) is not None:
+                enable = partial(edits.enable_rule, enabled=on)
+                self._actions.edit(partial(_at, rule, enable), f"switch {rule.name} {'on' if on else 'off'}")
+
+        return Binding(
+            gui.add_checkbox("On", True, hint="Without the tick all runs are as if it were not there."),
+            read=lambda state: state.document.rules[self._index].enabled,
+            write=write,
+            accept=anything,
+        )
+
+    def _add_name(self, gui: viser.GuiApi) -> Binding[str]:
+        def write(name: str) -> None:
+            change = partial(edits.rename_rule, index=self._index, name=name)
+            self._actions.edit(change, "rename a rule", f"rename rule {self._index}")
+
+        return Binding(
+            gui.add_text("Rule's name", ""),
+            read=lambda state: state.document.rules[self._index].name,
+            write=write,
+            accept=lambda name: bool(name.strip()),
+            typed=True,
+        )
+
+    def _show_arrows(self) -> None:
+        self._actions.look(rule=None if self._seen else self._index)
+
+    def _delete(self) -> None:
+        if (rule := self._rule) is not None:
             self._actions.edit(partial(_at, rule, edits.delete_rule), f"delete {rule.name}")
-        else:
-            enable = partial(edits.enable_rule, enabled=not rule.enabled)
-            self._actions.edit(
-                partial(_at, rule, enable), f"switch {rule.name} {'off' if rule.enabled else 'on'}"
-            )
 
 
 def _at(rule: Rule, change: Callable[[Document, int], Document], document: Document) -> Document:

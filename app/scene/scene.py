@@ -20,6 +20,7 @@ from app.scene.pulls import checked_point
 from app.scene.replay import Replay
 from app.scene.reproductions import Reproductions, Starts
 from app.scene.rings import ToolRings
+from app.scene.rules import Rules
 from app.scene.things import Things
 from app.scene.view import Eye
 from app.store import State
@@ -66,6 +67,7 @@ class Scene:
             Starts(api, actions, clock, self._eye),
             Landmarks(api, actions, clock, self._eye),
             Replay(api),
+            Rules(api),
             Things(api, actions, clock),
             Recording(api),
             HandBall(api, actions, clock, self._eye),

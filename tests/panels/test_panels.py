@@ -351,21 +351,24 @@ def test_the_width_of_a_pull_is_only_looked_at(bench: Bench) -> None:
     assert bench.notes.next() == ("look", (("pull_width", 0.35),))
 
 
-def test_a_rule_is_switched_off_and_deleted(bench: Bench) -> None:
+def test_a_rule_is_switched_off_and_on_and_says_what_it_does(bench: Bench) -> None:
     state = state_of(taught())
     run = np.array(state.model.runs[0].reproduction.positions)
     lower = run - [0.0, 0.0, 0.05] * np.sin(np.linspace(0, np.pi, len(run)))[:, None]
     document = edits.add_rule(state.document, Constraint.from_correction(run, lower), "Low")
     bench.draw(state_of(document, state.model))
-    bench.client.press("Switch off")
+    held = bench.client.text()
+    bench.client.set_gui("On", False)
     off = bench.edited(document)
     bench.draw(state_of(off, state.model))
-    labels = [e.label for e in bench.client.gui if e.kind == "ButtonGroup"]
-    bench.client.press("Switch on")
+    labels = [e.label for e in bench.client.gui]
+    bench.client.set_gui("On", True)
     on = bench.edited(off)
 
     assert ([r.enabled for r in off.rules], [r.enabled for r in on.rules]) == ([False], [True])
-    assert "Low (off)" in labels
+    assert "Low · off" in labels
+    assert "It holds the run back, by up to 5.0 cm." in held
+    assert "It is off" in bench.client.text()
 
 
 @pytest.mark.parametrize(("playing", "option"), [(False, "Play"), (True, "Pause")])
