@@ -23,6 +23,8 @@ PULL_IT: Final = "Pull the hand where the motion should be otherwise; let go, an
 ONLY_THE_HAND: Final = "While it replays only the hand can be pulled. Press Stop to work on something else."
 SLIP: Final = 0.001
 """A line pulled by less than this was pulled by a slip of the hand [m]."""
+FIRST: Final = "/demonstrations/0"
+"""What is replayed when the motion that was chosen is not there any more."""
 _FEELS: Final = {feel.name: feel for feel in compliance.FEELS}
 
 Said = tuple[str, bool]
@@ -75,10 +77,10 @@ class Amending:
     # --- a replay ----------------------------------------------------------------------
 
     def start(self, view: View, model: Model, now: float) -> Said:
-        """Replay what the view names, unless a correction waits."""
+        """Replay what the view names, or the first demonstration, unless a correction waits."""
         if (asked := self.settle("/hand", now)) is not None:
             return asked
-        subject = subject_of(view.replay, model)
+        subject = subject_of(view.replay, model) or subject_of(FIRST, model)
         if subject is None:
             return CHOOSE, True
         self._stage.pause()

@@ -47,6 +47,12 @@ def lead_at(time: float, run: Reproduction, path: JointPath | None) -> Lead:
     return Lead(between(run.positions), None if path is None else between(path.joints), gripper)
 
 
+def hand_at(arm: Arm, joints: FloatArray, gripper: float = 0.0) -> Hand:
+    """Give the hand of an arm with joints (J,) [rad]: where its tool is then, and how it is turned."""
+    pose = arm.tool_pose(joints)
+    return Hand(joints, pose[:3, 3], gripper, turned=orientation_of(pose))
+
+
 class Driver:
     """Keeps the arm's joints; everything that moves them goes through here."""
 
@@ -54,11 +60,7 @@ class Driver:
         self._arm = arm
         self._leads = True
         self._way: tuple[float, Motion] | None = None
-        self.hand = self._at(arm.home)
-
-    def _at(self, joints: FloatArray, gripper: float = 0.0) -> Hand:
-        pose = self._arm.tool_pose(joints)
-        return Hand(joints, pose[:3, 3], gripper, turned=orientation_of(pose))
+        self.hand = hand_at(arm, arm.home)
 
     def use(self, arm: Arm) -> None:
         """From now on move the same arm under other conditions."""
@@ -109,7 +111,7 @@ class Driver:
         joints = self._catch_up(before, lead, dt)
         moved = bool(np.max(np.abs(joints - before)) > STILL)
         if moved or lead.gripper != self.hand.gripper:
-            self.hand = self._at(joints, lead.gripper)
+            self.hand = hand_at(self._arm, joints, lead.gripper)
         return moved
 
     def _go_back(self, now: float) -> bool:
@@ -117,9 +119,9 @@ class Driver:
         began, motion = self._way
         index = int(np.searchsorted(motion.times, now - began))
         if index >= len(motion.times):
-            self.hand, self._way = self._at(motion.joints[-1], self.hand.gripper), None
+            self.hand, self._way = hand_at(self._arm, motion.joints[-1], self.hand.gripper), None
             return False
-        on_its_way = self._at(motion.joints[index], self.hand.gripper)
+        on_its_way = hand_at(self._arm, motion.joints[index], self.hand.gripper)
         self.hand = replace(on_its_way, returns_to=motion.positions[-1])
         return True
 

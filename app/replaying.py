@@ -15,6 +15,7 @@ from app.actions import Drag
 from app.arm.protocol import Arm
 from app.compliance import Feel, Replayed
 from app.document import FloatArray
+from app.driver import hand_at
 from app.gesture import Track
 from app.route import Route
 from app.servo import Motion
@@ -26,8 +27,6 @@ MOST_SAMPLES: Final = 400
 """A route is planned at so many of a path's samples."""
 APPROACH: Final = 1.0
 """The arm goes to where the path begins in this time, or slower [s]."""
-FASTEST: Final = 3.0
-"""No joint turns faster than this on the way there [rad/s]."""
 LONGEST: Final = 300.0
 """A replay ends by itself after this time, even if the hand is still held [s]."""
 SETTLING: Final = 1.5
@@ -36,8 +35,6 @@ BACK: Final = 0.001
 """A hand this near to its path is back on it [m]."""
 SLIP: Final = 0.001
 """A hand that was nowhere moved by more than this was not corrected [m]."""
-_PEAK: Final = 1.875
-"""Largest speed of a motion of minimum jerk over its mean speed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,7 +163,7 @@ class Replaying:
             self.let_go(until)
         if until <= self._approach.times[-1]:
             index = max(int(np.searchsorted(self._approach.times, until, side="right")) - 1, 0)
-            self.hand = self._hand_at(self._approach.joints[index], self._approach.positions[index])
+            self.hand = self._hand_at(self._approach.joints[index])
         self._step(until)
 
     def _step(self, until: float) -> None:
@@ -175,10 +172,10 @@ class Replaying:
             return
         self._parts.append(part)
         self._held_at_end |= bool(np.any(part.pulled & (part.along >= self._route.times[-1])))
-        self.hand = self._hand_at(part.joints[-1], part.positions[-1])
+        self.hand = self._hand_at(part.joints[-1])
 
-    def _hand_at(self, joints: FloatArray, position: FloatArray) -> Hand:
-        return Hand(joints, position, gripper_at(self.subject.path, self._replay.along))
+    def _hand_at(self, joints: FloatArray) -> Hand:
+        return hand_at(self._arm, joints, gripper_at(self.subject.path, self._replay.along))
 
     # --- what came of it ---------------------------------------------------------------
 
@@ -252,5 +249,7 @@ def gripper_at(path: Demonstration | Reproduction, time: float) -> float:
 
 
 def _way_to(arm: Arm, start: FloatArray, goal: FloatArray, now: float) -> Motion:
-    duration = max(APPROACH, _PEAK * float(np.abs(goal - start).max()) / FASTEST)
-    return servo.return_home(arm, start, goal, time=now, duration=duration)
+    """Go to where a path begins, clear of what is around where there is such a way."""
+    way = arm.way(start, goal)
+    way = np.stack([start, goal]) if way is None else way
+    return servo.swing(arm, way, time=now, at_least=APPROACH / (len(way) - 1))

@@ -240,11 +240,14 @@ def reposition(arm: Arm, joints: FloatArray, target: FloatArray, *, time: float 
     return None if way is None else swing(arm, way, time=time)
 
 
-def swing(arm: Arm, way: FloatArray, *, time: float = 0.0) -> Motion:
-    """Pass postures (W, J) one after the other, each by `return_home`, no joint faster than `FASTEST`."""
+def swing(arm: Arm, way: FloatArray, *, time: float = 0.0, at_least: float = _TICK) -> Motion:
+    """Pass postures (W, J) one after the other, each by `return_home`, no joint faster than `FASTEST`.
+
+    From one to the next it takes ``at_least`` so long [s].
+    """
     parts: list[Motion] = []
     for start, goal in pairwise(way):
-        duration = max(_PEAK * float(np.abs(goal - start).max()) / FASTEST, _TICK)
+        duration = max(_PEAK * float(np.abs(goal - start).max()) / FASTEST, at_least)
         # Rounded up to a whole tick: a shorter time would be too fast.
         whole = math.ceil(duration * TICKS_PER_SECOND) / TICKS_PER_SECOND
         begins = float(parts[-1].times[-1]) if parts else time

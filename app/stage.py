@@ -7,7 +7,7 @@ from app import player
 from app.arm.conditions import Conditions
 from app.arm.protocol import Arm, FloatArray
 from app.document import View
-from app.driver import Driver, Lead, lead_at
+from app.driver import Driver, Lead, hand_at, lead_at
 from app.model import Model
 from app.store import Hand, Plan, Playback, Task
 from app.trial import Trial
@@ -125,7 +125,7 @@ class Stage:
         moving = time < played.times[-1]
         trial = self._trial = replace(trial, time=min(time, float(played.times[-1])))
         at = trial.index()
-        self.driver.pulled(Hand(played.joints[at], played.positions[at], self.hand.gripper))
+        self.driver.pulled(hand_at(self.arm, played.joints[at], self.hand.gripper))
         return moving
 
     def begins_near(self) -> FloatArray:

@@ -15,6 +15,7 @@ from app.document import FloatArray
 from app.proposal import DISCARDED, FIRST_ANSWER, Proposal
 from app.replaying import Corrected, Subject
 from app.store import State
+from app.turning import orientation_of
 from tests.app.makers import TICK, Mouse
 
 PULL = 0.08
@@ -232,6 +233,22 @@ def test_a_correction_must_be_answered_before_the_next_pull(desk: Desk, mouse: M
 
     assert desk.state().message == FIRST_ANSWER
     assert desk.state().proposal is not None
+
+
+def test_after_a_replay_it_is_known_how_the_tool_is_turned(desk: Desk, mouse: Mouse) -> None:
+    replay(desk, mouse)
+    hand = desk.state().hand
+
+    assert hand.turned == orientation_of(desk.stage.arm.tool_pose(hand.joints))
+
+
+def test_a_motion_that_is_gone_is_replaced_by_the_first_as_the_panel_shows(desk: Desk, mouse: Mouse) -> None:
+    desk.look(replay="/reproductions/7")
+    desk.start_replay(mouse.now)
+    replayed = desk.state().replay
+
+    assert replayed is not None
+    np.testing.assert_array_equal(replayed.path, former(desk))
 
 
 def test_play_ends_a_replay(desk: Desk, mouse: Mouse) -> None:
