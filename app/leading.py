@@ -160,7 +160,9 @@ class Leading:
                 pull.answered(inquiry, answer)
         elif inquiry is self._way:
             self._way = None
-            if isinstance(answer, Motion):
+            if desk.stage.playback.playing or not np.array_equal(desk.stage.hand.joints, inquiry.joints):
+                desk.say(MOVED_ON)
+            elif isinstance(answer, Motion):
                 self._stuck_at = None
                 desk.stage.driver.swings(answer, now)
                 desk.say(SWINGS)
@@ -192,6 +194,7 @@ class Leading:
 
 LOOKING: Final = "Looking for another posture of the arm …"
 SWINGS: Final = "The arm changes its posture and brings the hand there. The next demonstration begins there."
+MOVED_ON: Final = "The arm was moved meanwhile, so its posture was not changed."
 NO_WAY: Final = (
     "There is no clear way to another posture. Move the hand elsewhere first, or clear what is around it."
 )

@@ -310,6 +310,18 @@ def test_after_the_release_the_arm_can_still_be_repositioned(jaco: Jaco) -> None
     assert np.linalg.norm(mouse.place("/hand") - OPPOSITE) < HERE
 
 
+def test_a_way_that_is_found_after_play_was_pressed_is_not_gone(jaco: Jaco) -> None:
+    desk, mouse = stuck(jaco)
+    desk.leading.reposition(mouse.now)
+    desk.play(True, mouse.now)
+    mouse.wait(TICK)
+    answer(desk, jaco, mouse)
+    mouse.wait(6.0)
+
+    assert desk.stage.playback.playing
+    assert np.linalg.norm(mouse.place("/hand") - OPPOSITE) > 0.1
+
+
 def test_an_arm_that_is_not_stuck_is_not_repositioned(desk: Desk, mouse: Mouse) -> None:
     desk.leading.reposition(mouse.now)
 
