@@ -53,7 +53,7 @@ class Desk:
 
     def state(self) -> State:
         """Take a snapshot for panels and scene."""
-        document = self._learned()
+        document = self.learned()
         message, warning = self._words()
         return State(
             document=document,
@@ -77,7 +77,7 @@ class Desk:
             saved=self.saved is self.store.document,
         )
 
-    def _learned(self) -> Document:
+    def learned(self) -> Document:
         """Give what is shown, and see to it that it is learned."""
         document = self.amending.shown(self.store.document)
         if self._held is not None:
@@ -214,7 +214,7 @@ class Desk:
     def start_replay(self, now: float) -> None:
         """Replay what the view names, and let the hand be pulled aside."""
         self.let_go(now)
-        self._learned()
+        self.learned()
         self.amend(lambda a: a.start(self.view, self.model, now))
 
     def amend(self, act: Callable[[Amending], Said | None]) -> None:
@@ -223,9 +223,10 @@ class Desk:
         if said is not None:
             self.say(said[0], warning=said[1])
 
-    def choose_run(self, run: int) -> None:
+    def choose_run(self, run: int, now: float) -> None:
         """Play another reproduction from its beginning."""
         if 0 <= run < len(self.model.runs):
+            self._end_shows(now)
             self.stage.cue(run, self.model)
 
     # --- pulls -------------------------------------------------------------------------
@@ -239,7 +240,7 @@ class Desk:
             self.let_go(drag.time)
             if (asked := self.amending.settle(drag.node, drag.time)) is not None:
                 return self.say(asked[0], warning=asked[1])
-            self._learned()  # an edit or a release may not be learned yet
+            self.learned()  # an edit or a release may not be learned yet
             held = self._held = self._grab(drag)
         elif held is not None and held.takes(drag):
             held.follow(drag)

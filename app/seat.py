@@ -51,7 +51,7 @@ class Seat:
 
     def choose_run(self, run: int) -> None:
         """See `Actions.choose_run`."""
-        self._post(lambda desk, _: desk.choose_run(run))
+        self._post(lambda desk, now: desk.choose_run(run, now))
 
     def drag(self, drag: Drag) -> None:
         """See `Actions.drag`."""

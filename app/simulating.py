@@ -6,6 +6,7 @@ every quarter of a second that nobody wants it any more.
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Final
 
 from app.arm.errors import ArmError
@@ -60,10 +61,14 @@ def simulate(task: Task, make_arm: Callable[[], Arm], watch: Callable[[float], N
 
 
 def around(task: Task) -> tuple[Shape, ...]:
-    """Everything around the arm: what it keeps off, and what it may touch."""
-    heeded = task.conditions.obstacles
-    names = {shape.name for shape in heeded}
-    return (*heeded, *(thing for thing in task.model.source.things if thing.name not in names))
+    """Everything around the arm: what it keeps off, and what it may touch; no two have one name."""
+    things = task.model.source.things
+    names = {thing.name for thing in things}
+    posts = (shape for shape in task.conditions.obstacles if shape not in things)
+    return (
+        *things,
+        *(replace(post, name=f"{post.name} (landmark)") if post.name in names else post for post in posts),
+    )
 
 
 def _planned(task: Task, make_arm: Callable[[], Arm]) -> Plan:

@@ -22,6 +22,7 @@ class Trials:
     def begin(self, desk: Desk, now: float) -> None:
         """Play the run of a desk; one that is under way is given up."""
         desk.let_go(now)
+        desk.learned()
         task = self._wanted = desk.stage.task(desk.model)
         if task is None:
             return

@@ -23,6 +23,8 @@ SMALLEST: Final = 0.005
 """No measure of a thing is less [m]."""
 LARGEST: Final = 2.0
 """No measure of a thing is more [m]."""
+TAKEN: Final = "table"
+"""What all things stand on is called this."""
 HEAVIEST: Final = 20.0
 """[kg]."""
 STANDS: Final = 1e-3
@@ -141,7 +143,7 @@ def rename_thing(document: Document, index: int, name: str) -> Document:
         return document
     if "/" in name:
         raise EditError("The name of a thing cannot have a / in it. Use another sign.")
-    if any(other.name == name for other in document.things):
+    if name == TAKEN or any(other.name == name for other in document.things):
         raise EditError(f"There is something called {name} already. Choose another name.")
     return _with_thing(document, former, replace(former, name=name))
 

@@ -360,8 +360,8 @@ def test_choosing_another_run_plays_it_from_its_beginning(desk: Desk, mouse: Mou
     desk.state()
     desk.stage.seek(1.0)
 
-    desk.choose_run(1)
-    desk.choose_run(7)
+    desk.choose_run(1, mouse.now)
+    desk.choose_run(7, mouse.now)
 
     assert (desk.stage.playback.run, desk.stage.playback.time) == (1, 0.0)
 
@@ -369,7 +369,7 @@ def test_choosing_another_run_plays_it_from_its_beginning(desk: Desk, mouse: Mou
 def test_when_the_played_run_goes_the_playhead_moves_to_one_that_is_left(desk: Desk, mouse: Mouse) -> None:
     desk.edit(lambda d: edits.add_start(d, FIRST_START - 0.03), "add a start", now=mouse.now)
     desk.state()
-    desk.choose_run(1)
+    desk.choose_run(1, mouse.now)
     desk.undo(mouse.now)
 
     assert desk.state().playback.run == 0

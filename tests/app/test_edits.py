@@ -134,6 +134,7 @@ NONSENSE: dict[str, Edit] = {
     "a thing of no weight at all": lambda d: edits.weigh_thing(d, "crate", float("nan")),
     "a thing with a stroke in its name": lambda d: edits.rename_thing(d, 0, "a/b"),
     "a name that another thing has": lambda d: edits.rename_thing(d, 0, "can"),
+    "the name of the table": lambda d: edits.rename_thing(d, 0, "table"),
     "a name for no thing": lambda d: edits.rename_thing(d, 7, "box"),
 }
 

@@ -194,7 +194,7 @@ def test_the_run_that_is_played_is_planned_first_and_the_others_after_it(desk: D
     for shift in (0.02, 0.04):
         desk.edit(lambda d, s=shift: edits.add_start(d, FIRST_START - s), "add a start", now=mouse.now)
     desk.state()
-    desk.choose_run(1)
+    desk.choose_run(1, mouse.now)
 
     assert desk.stage.unplanned(desk.model) == (1, 0, 2)
     desk.accept_plan(planned(desk, 1))
@@ -203,7 +203,7 @@ def test_the_run_that_is_played_is_planned_first_and_the_others_after_it(desk: D
 
 def test_of_several_runs_that_cannot_be_done_the_one_that_is_played_is_told() -> None:
     desk = desk_of(replace(taught(), starts=tuple(np.array([2.0, y, 0.5]) for y in (0.0, 0.1, 0.2))))
-    desk.choose_run(1)
+    desk.choose_run(1, 0.0)
     for run in (0, 1, 2):
         desk.accept_plan(planned(desk, run))
 

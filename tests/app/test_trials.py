@@ -18,7 +18,7 @@ from app.arm.physics_engine import missing
 from app.arm.shapes import Box, Cylinder, Shape
 from app.desk import Desk
 from app.document import Document, Settings, Shown
-from app.simulating import SupersededError, simulate
+from app.simulating import SupersededError, around, simulate
 from app.skills import load_skill
 from app.store import Task
 from app.trial import Trial
@@ -209,6 +209,48 @@ def test_without_pybullet_the_trial_says_what_to_install(
 @pytest.fixture
 def carried_task(jaco: Jaco) -> Task:
     return task_of(desk_with(jaco))
+
+
+def test_a_trial_is_of_what_was_just_edited(jaco: Jaco) -> None:
+    desk = desk_with(jaco, CUP)
+    actor = Actor(tick=lambda: False, draw=lambda: None, report=lambda _: None, name="test")
+    with ThreadPoolExecutor(1) as workers:
+        trials = Trials(workers, actor, Jaco)
+        desk.edit(lambda d: replace(d, starts=(FROM + 0.01,)), "move start", now=1.0)
+        trials.begin(desk, 1.0)
+        trial = desk.state().trial
+        trials.give_up()
+    actor.close()
+
+    assert trial is not None
+    assert not trial.stale
+
+
+def test_what_is_carried_is_there_when_a_landmark_has_its_name(carried_task: Task) -> None:
+    source = replace(carried_task.model.source, things=(CUP,))
+    post = replace(CUP, position=(0.3, -0.4, 0.1), mass=0.0)
+    task = replace(
+        carried_task,
+        model=replace(carried_task.model, source=source),
+        conditions=replace(carried_task.conditions, obstacles=(post,)),
+    )
+    things = around(task)
+
+    assert CUP in things
+    assert len({thing.name for thing in things}) == len(things) == 2
+
+
+@needs_pybullet
+def test_another_run_ends_the_show_of_a_trial(carried: tuple[Desk, Trial]) -> None:
+    desk, trial = carried
+    desk.learned()
+    desk.stage.accept_trial(replace(trial, source=desk.model))
+    desk.play_trial(True, 0.0)
+    desk.choose_run(0, 0.1)
+    shown = desk.state().trial
+
+    assert shown is not None
+    assert shown.time is None
 
 
 @needs_pybullet
