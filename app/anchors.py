@@ -1,6 +1,7 @@
 """Landmarks as they are: every place known, and how the core takes them."""
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from scipy.spatial.transform import (  # pyright: ignore[reportMissingTypeStubs] - SciPy has none
@@ -9,6 +10,9 @@ from scipy.spatial.transform import (  # pyright: ignore[reportMissingTypeStubs]
 
 from app.document import FloatArray, LandmarkKind
 from gc_core import Landmark
+
+UPRIGHT: Final = 1e-6
+"""With a smaller cosine of the pitch, roll and yaw turn about one axis."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +55,16 @@ def same_anchors(one: tuple[Anchor, ...], other: tuple[Anchor, ...]) -> bool:
 def quaternion(turn: FloatArray) -> FloatArray:
     """Turn roll, pitch, yaw (3,) [rad] about the fixed x, then y, then z axis into a quaternion (4,) wxyz."""
     return np.asarray(Rotation.from_euler("xyz", turn).as_quat(scalar_first=True), dtype=np.float64)
+
+
+def turn_of(rotation: FloatArray) -> FloatArray:
+    """(3,) roll, pitch, yaw of a matrix (3, 3) [rad]; roll is 0 where it is the same as yaw."""
+    flat = float(np.hypot(rotation[0, 0], rotation[1, 0]))
+    pitch = np.arctan2(-rotation[2, 0], flat)
+    if flat < UPRIGHT:
+        return np.array([0.0, pitch, np.arctan2(-rotation[0, 1], rotation[1, 1])])
+    roll, yaw = np.arctan2(rotation[2, 1], rotation[2, 2]), np.arctan2(rotation[1, 0], rotation[0, 0])
+    return np.array([roll, pitch, yaw]) + 0.0  # no -0
 
 
 def matrix(turn: FloatArray | None) -> FloatArray:

@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 
+from app import anchors
 from app.arm.shapes import Quadruple, Triple, rotation_of
 from app.document import Box, Cylinder, FloatArray, Shape, Sphere, ThingKind
 
@@ -115,9 +116,4 @@ def handles(thing: Shape) -> tuple[Handle, ...]:
 
 def turn_of(wxyz: Quadruple) -> FloatArray:
     """(3,) roll, pitch, yaw of an orientation: turns about the fixed x, then y, then z axis [rad]."""
-    m = rotation_of(wxyz)
-    level = float(np.hypot(m[0, 0], m[1, 0]))
-    pitch = np.arctan2(-m[2, 0], level)
-    if level < 1e-6:  # seen along x: roll and yaw turn about the same axis
-        return np.array([0.0, pitch, np.arctan2(-m[0, 1], m[1, 1])])
-    return np.array([np.arctan2(m[2, 1], m[2, 2]), pitch, np.arctan2(m[1, 0], m[0, 0])])
+    return anchors.turn_of(rotation_of(wxyz))

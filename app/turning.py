@@ -11,14 +11,13 @@ from scipy.spatial.transform import (  # pyright: ignore[reportMissingTypeStubs]
     Rotation,
 )
 
+from app import anchors
 from app.arm.protocol import Arm, FloatArray
 from app.arm.shapes import Quadruple
 from app.edits import EditError
 
 DOWN: Final[Quadruple] = (0.0, 1.0, 0.0, 0.0)
 """Straight down, the fingers left and right."""
-_UPRIGHT: Final = 1e-6
-"""With a smaller cosine of the pitch, roll and yaw turn about one axis."""
 _NEAR_LIMIT: Final = 0.03
 """A joint this near to its limit is what stops the tool [rad]."""
 _NEAR_BODY: Final = 0.015
@@ -54,13 +53,7 @@ def turned(wxyz: Quadruple, by: FloatArray) -> Quadruple:
 
 def angles_of(wxyz: Quadruple) -> FloatArray:
     """Give (3,) roll, pitch and yaw since straight down [rad]; roll is 0 where it is the same as yaw."""
-    matrix = (_rotation(wxyz) * _rotation(DOWN).inv()).as_matrix()
-    flat = float(np.hypot(matrix[0, 0], matrix[1, 0]))
-    pitch = np.arctan2(-matrix[2, 0], flat)
-    if flat < _UPRIGHT:
-        return np.array([0.0, pitch, np.arctan2(-matrix[0, 1], matrix[1, 1])])
-    roll, yaw = np.arctan2(matrix[2, 1], matrix[2, 2]), np.arctan2(matrix[1, 0], matrix[0, 0])
-    return np.array([roll, pitch, yaw]) + 0.0  # no -0
+    return anchors.turn_of((_rotation(wxyz) * _rotation(DOWN).inv()).as_matrix())
 
 
 def from_angles(angles: FloatArray) -> Quadruple:

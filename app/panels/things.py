@@ -160,9 +160,6 @@ class ThingRow:
             typed=True,
         )
 
-    def _measure(self, state: State, number: int) -> float:
-        return measures.measures(state.document.things[self._index])[number]
-
     def _add_mass(self, gui: viser.GuiApi) -> Binding[float]:
         most = 1000.0 * HEAVIEST
         return Binding(

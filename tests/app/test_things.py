@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app import edits
@@ -109,6 +109,7 @@ def test_whatever_is_done_to_a_thing_it_is_not_below_the_table_and_refusals_are_
 
 
 @kinds
+@settings(deadline=None)  # a busy machine
 @given(turn=st.lists(st.floats(-3.0, 3.0), min_size=3, max_size=3), length=st.floats(0.01, 0.5))
 def test_what_stands_on_the_table_stands_on_it_when_it_is_turned_and_sized(
     kind: str, turn: list[float], length: float
