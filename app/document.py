@@ -140,6 +140,8 @@ class View:
     """Of that replay, as a multiple of the taught one: 0.25 .. 1."""
     replay_feel: Feel = "medium"
     """How hard the hand is to pull aside then."""
+    suggest: bool = True
+    """Say and show what would help most next."""
     rule: int | None = -1
     """Place in the list of the rule whose arrows are shown; -1: the newest; None: of none."""
     placing: LandmarkKind | ThingKind | None = None

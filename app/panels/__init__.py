@@ -29,6 +29,7 @@ from app.panels.slice import SlicePanel
 from app.panels.smoothing import SmoothingPanel
 from app.panels.starts import StartsPanel
 from app.panels.status import StatusPanel
+from app.panels.suggestion import SuggestionPanel
 from app.panels.things import ThingsPanel
 from app.panels.timeline import TimelinePanel
 from app.panels.tool import ToolPanel
@@ -91,6 +92,7 @@ def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]
     tabs = gui.add_tab_group()
     with tabs.add_tab("Teach", viser.Icon.HAND_GRAB):
         teach: tuple[Panel, ...] = (
+            SuggestionPanel(gui, actions),
             DemonstrationsPanel(gui, actions),
             OfferPanel(gui, actions),
             HandPanel(gui, actions),

@@ -5,11 +5,13 @@ from functools import partial
 
 import viser
 
-from app import edits
+from app import advising, edits
 from app.actions import Actions
-from app.binding import Binding, Rows, anything, assign, on_choice
+from app.advising import FAULT_WORDS, FIX_WORDS
+from app.binding import QUIET, Binding, Rows, anything, assign, on_choice, on_press
 from app.document import Document, Shown
 from app.panels import words
+from app.quality import Note
 from app.store import State
 
 TRIM, COPY, DELETE = "Trim", "Duplicate", "Delete"
@@ -37,6 +39,7 @@ class DemonstrationRow:
     def __init__(self, gui: viser.GuiApi, actions: Actions, index: int) -> None:
         self._actions, self._index = actions, index
         self._shown: Shown | None = None
+        self._note: Note | None = None
         self._duration: float = 0.0
         self._keep = (0.0, 0.0)
         self._folder = gui.add_folder(f"Demonstration {index + 1}", expand_by_default=False)
@@ -49,6 +52,9 @@ class DemonstrationRow:
             self._kept: Binding[tuple[float, ...]] = Binding(
                 self._part, read=lambda _: self._keep, write=self._choose, accept=self._within, typed=True
             )
+            self._wrong = gui.add_html("", visible=False)
+            self._fix = gui.add_button("", color=QUIET, visible=False)
+            on_press(self._fix, self._mend)
             group = gui.add_button_group("", (TRIM, COPY, DELETE))
             on_choice(group, lambda place: (self._trim, self._copy, self._delete)[place]())
 
@@ -59,8 +65,11 @@ class DemonstrationRow:
     def draw(self, state: State) -> None:
         """Show the demonstration at this place of the list."""
         shown = state.document.demonstrations[self._index]
-        if shown is not self._shown:
+        note = advising.note_of(advising.advice(state.model), shown.demonstration)
+        if shown is not self._shown or note is not self._note:
+            self._note = note
             self._show_facts(shown)
+            self._show_note(note)
         self._use.draw(state)
         self._name.draw(state)
         self._kept.draw(state)
@@ -73,7 +82,19 @@ class DemonstrationRow:
             self._duration, self._keep = duration, (0.0, duration)
             assign(self._part, max=duration)
         muted = " · muted" if shown.muted else ""
-        assign(self._folder, label=f"{demonstration.name} · {words.seconds(duration)}{muted}")
+        wrong = "" if self._note is None else f" · {FAULT_WORDS[self._note.fault]}"
+        assign(self._folder, label=f"{demonstration.name} · {words.seconds(duration)}{muted}{wrong}")
+
+    def _show_note(self, note: Note | None) -> None:
+        assign(self._wrong, visible=note is not None)
+        assign(self._fix, visible=note is not None)
+        if note is not None:
+            assign(self._wrong, content=words.note(words.escape(note.sentence)))
+            assign(self._fix, label=FIX_WORDS[note.fix])
+
+    def _mend(self) -> None:
+        if self._shown is not None and self._note is not None:
+            self._actions.edit(*advising.fixing(self._shown.demonstration, self._note.fix))
 
     def _add_use(self, gui: viser.GuiApi) -> Binding[bool]:
         widget = gui.add_checkbox(

@@ -21,6 +21,7 @@ from app.scene.replay import Replay
 from app.scene.reproductions import Reproductions, Starts
 from app.scene.rings import ToolRings
 from app.scene.rules import Rules
+from app.scene.suggestion import SuggestionDisc
 from app.scene.things import Things
 from app.scene.view import Eye
 from app.store import State
@@ -68,6 +69,7 @@ class Scene:
             Landmarks(api, actions, clock, self._eye),
             Replay(api),
             Rules(api),
+            SuggestionDisc(api),
             Things(api, actions, clock),
             Recording(api),
             HandBall(api, actions, clock, self._eye),

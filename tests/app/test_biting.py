@@ -38,7 +38,7 @@ def only(document: Document) -> tuple[biting.Bite, Model]:
 
 def test_a_rule_bites_the_run_that_would_pass_it_where_it_is_held() -> None:
     bite, model = only(ruled(two_runs(), 0.02))
-    held = model.runs[1].reproduction.positions
+    held = np.concatenate([run.reproduction.positions for run in model.runs])
     gaps = np.linalg.norm(bite.places[:, None] - held[None], axis=2).min(axis=1)
 
     assert 1 in bite.runs
