@@ -92,9 +92,9 @@ class Stage:
         )
 
     def trial(self, model: Model) -> Trial | None:
-        """Give what physics made of a run, and whether it is of a former model."""
+        """Give what physics made of a run, and whether the run or what is around has changed since."""
         trial = self._trial
-        if trial is not None and trial.source is not model and not trial.stale:
+        if trial is not None and not trial.stale and not trial.holds(model):
             trial = self._trial = replace(trial, stale=True, time=None)
         return trial
 

@@ -32,7 +32,18 @@ class Trial:
     time: float | None = None
     """What happened is shown at this time of `played`; None: it is not shown [s]."""
     stale: bool = False
-    """The skill has changed since."""
+    """The run, or what is around, has changed since."""
+
+    def holds(self, model: Model) -> bool:
+        """Whether a model has the same run among the same things, whatever else was changed."""
+        if model is self.source:
+            return True
+        return (
+            self.run < len(model.runs)
+            and model.runs[self.run].reproduction is self.source.runs[self.run].reproduction
+            and model.source.things is self.source.source.things
+            and model.source.landmarks is self.source.source.landmarks
+        )
 
     def moved(self, things: tuple[Shape, ...]) -> tuple[Shape, ...]:
         """Give things where physics put them at the time that is shown; the same where none is."""

@@ -134,6 +134,16 @@ def test_a_changed_skill_makes_a_trial_stale_and_ends_its_show(carried: tuple[De
     assert stale.time is None
 
 
+def test_another_title_leaves_a_trial_as_it_is(jaco: Jaco) -> None:
+    desk = desk_with(jaco)
+    desk.stage.accept_trial(Trial(desk.model, 0))
+    desk.edit(lambda d: replace(d, title="Carry it"), "rename the skill", now=1.0)
+    trial = desk.state().trial
+
+    assert trial is not None
+    assert not trial.stale
+
+
 @needs_pybullet
 def test_things_are_shown_where_physics_put_them_while_it_is_shown(carried: tuple[Desk, Trial]) -> None:
     trial = carried[1]
