@@ -7,7 +7,6 @@ every quarter of a second that nobody wants it any more.
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Final
 
 from app.arm.errors import ArmError
 from app.arm.physics import World
@@ -16,12 +15,10 @@ from app.arm.physics_playback import play
 from app.arm.physics_words import played as in_words
 from app.arm.protocol import Arm
 from app.arm.shapes import Shape
+from app.measures import TABLE
 from app.planning import plan_run
 from app.store import Plan, Task
 from app.trial import Trial
-
-TABLE: Final = 0.0
-"""Height of the table top [m]."""
 
 
 class SupersededError(Exception):

@@ -8,7 +8,6 @@ from app.binding import Changed, assign
 from app.panels import words
 from app.store import State
 
-AMBER: Final = "light-dark(#b45309,#fbbf24)"
 RED: Final = "light-dark(#C4161C,#FF5A4F)"
 RECORDING: Final = "&#9679; Recording. Let go when the motion is done."
 BY_BUTTONS: Final = "&#9679; Recording. Move the hand by buttons or numbers, then press Stop (key R)."
@@ -40,6 +39,6 @@ def status(state: State) -> str:
         message = "" if state.message == state.document.about else state.message
         if message and not state.warning and state.dragging is None:
             message = f"{message} {words.advice(state.model)}".rstrip()
-        color = AMBER if state.warning else "inherit"
+        color = words.AMBER if state.warning else "inherit"
         line = words.note(words.escape(message or words.taught(state.model)), strong=True, color=color)
     return f'<div role="status" style="min-height:3rem">{line}</div>'

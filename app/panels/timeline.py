@@ -9,6 +9,7 @@ from app import judgement
 from app.actions import VIEW_NAMES, Actions
 from app.arm.verdict import Problem
 from app.binding import Binding, Rows, assign, on_choice, on_press
+from app.panels import words
 from app.player import SPEEDS
 from app.store import Plan, State
 
@@ -18,7 +19,6 @@ PLAYING, PAUSED = "Playing", "Paused"
 LOOP: Final = "Loop"
 STEP: Final = 0.01
 """Of the playhead [s]."""
-CHOSEN: Final = "✓ "
 AMBER: Final = (180, 83, 9)
 """White text keeps 4.5:1 on it."""
 MOST_PROBLEMS: Final = 3
@@ -70,7 +70,7 @@ class TimelinePanel:
         runs = len(state.model.runs)
         assign(self._runs, visible=runs > 1)
         if runs > 1:
-            assign(self._runs, options=_marked(tuple(str(i + 1) for i in range(runs)), playback.run))
+            assign(self._runs, options=words.marked(tuple(str(i + 1) for i in range(runs)), playback.run))
 
         self._draw_problems(state)
 
@@ -122,11 +122,6 @@ def _options(playing: bool, speed: float, loop: bool) -> tuple[str, ...]:
     chosen = SPEEDS.index(speed) if speed in SPEEDS else -1
     return (
         PAUSE if playing else PLAY,
-        *_marked(SPEED_WORDS, chosen),
-        *_marked((LOOP,), 0 if loop else -1),
+        *words.marked(SPEED_WORDS, chosen),
+        *words.marked((LOOP,), 0 if loop else -1),
     )
-
-
-def _marked(options: tuple[str, ...], chosen: int) -> tuple[str, ...]:
-    """A tick before the chosen option: viser shows no chosen button in a row."""
-    return tuple(CHOSEN + option if i == chosen else option for i, option in enumerate(options))

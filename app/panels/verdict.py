@@ -11,10 +11,8 @@ from app.document import Pace
 from app.panels import words
 from app.store import State
 
-AMBER: Final = "light-dark(#b45309,#fbbf24)"
 PACES: Final[tuple[Pace, ...]] = ("taught", "fastest")
 PACE_WORDS: Final = ("As taught", "As fast as it can")
-CHOSEN: Final = "✓ "
 CHECKING: Final = "The arm is being asked …"
 NOTHING: Final = "There is no run yet, because there is no tube yet."
 
@@ -36,8 +34,7 @@ class VerdictPanel:
     def draw(self, state: State) -> None:
         """Say what the worker found; while something is dragged, what it found before stays."""
         chosen = PACES.index(state.view.pace)
-        options = tuple(CHOSEN + word if i == chosen else word for i, word in enumerate(PACE_WORDS))
-        assign(self._pace, options=options)
+        assign(self._pace, options=words.marked(PACE_WORDS, chosen))
         run = state.playback.run
         if state.dragging is None and self._changed(state.plans, run, len(state.model.runs)):
             assign(self._text, content=verdict(state))
@@ -49,13 +46,15 @@ def verdict(state: State) -> str:
     if plan is None:
         return words.note(CHECKING if state.model.runs else NOTHING)
     found = judgement.problems(plan)
-    lines = [words.note(judgement.headline(plan), strong=True, color=AMBER if found else "inherit")]
+    lines = [words.note(judgement.headline(plan), strong=True, color=words.AMBER if found else "inherit")]
     for problem in found:
         what = words.escape(f"{judgement.when(plan, problem)}: {problem.what}.")
-        lines.append(words.note(f'<span style="color:{AMBER}">{what}</span> {words.escape(problem.remedy)}'))
+        lines.append(
+            words.note(f'<span style="color:{words.AMBER}">{what}</span> {words.escape(problem.remedy)}')
+        )
     lines += [words.note(words.escape(" ".join(judgement.facts(plan))))]
     lines += [
-        words.note(words.escape(said), color=AMBER)
+        words.note(words.escape(said), color=words.AMBER)
         for said in judgement.others(state.plans, state.playback.run)
     ]
     return "".join(lines)

@@ -1,5 +1,6 @@
 """Numbers and causes in a teacher's words: centimetres, seconds, percent, whole sentences."""
 
+from collections.abc import Sequence
 from html import escape as _escape
 from typing import Final
 
@@ -22,6 +23,17 @@ CRUMPLED: Final = (
     "Where the motion turns back, the tube is wider than the turn and its slices cut each other: "
     "show the turn wider, or more alike."
 )
+
+
+AMBER: Final = "light-dark(#b45309,#fbbf24)"
+"""Of a warning, on a light and on a dark page."""
+CHOSEN: Final = "✓ "
+"""Before the chosen option: viser shows no chosen button in a row."""
+
+
+def marked(options: Sequence[str], chosen: int) -> tuple[str, ...]:
+    """Put a tick before the chosen option; any other number chooses none."""
+    return tuple(CHOSEN + option if i == chosen else option for i, option in enumerate(options))
 
 
 def escape(text: str) -> str:
