@@ -12,6 +12,7 @@ from scipy.spatial.transform import (  # pyright: ignore[reportMissingTypeStubs]
 )
 
 from app import anchors
+from app.arm.physics_words import thing_in_words
 from app.arm.protocol import Arm, FloatArray
 from app.arm.shapes import Quadruple
 from app.edits import EditError
@@ -88,7 +89,7 @@ def stopped_by(arm: Arm, joints: FloatArray) -> str:
         return f"joint {int(room.argmin()) + 1} at its limit"
     found = arm.clearance(joints[None])
     if found.obstacles[0] < _NEAR_BODY:
-        return f"{found.names[0]} is in the way"
+        return f"{thing_in_words(found.names[0])} is in the way"
     if found.itself[0] < _NEAR_BODY:
         return "its own arm is in the way"
     return "the hand would have to leave its place"

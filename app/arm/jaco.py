@@ -24,6 +24,7 @@ from app.arm.inputs import (
     rotations_of,
 )
 from app.arm.paths import Course, find_path
+from app.arm.physics_words import thing_in_words
 from app.arm.postures import OWN_BODY, search, swing, way_to
 from app.arm.programs import SAFE_DISTANCE
 from app.arm.protocol import HERE, STUCK, Clearance, FloatArray, JointPath, LinkMesh, Shortfall
@@ -232,7 +233,7 @@ class Jaco:
         """Say what is nearest to stopping the arm where it is; empty when nothing is near."""
         found = self._use().clearance(joints[None])
         if found.obstacles[0] < SAFE_DISTANCE + _NEAR_BODY:
-            return f"{found.names[0]} is in the way"
+            return f"{thing_in_words(found.names[0])} is in the way"
         room = np.minimum(joints - self.lower, self.upper - joints)
         if room.min() < _NEAR_LIMIT:
             return f"joint {int(room.argmin()) + 1} at its limit"

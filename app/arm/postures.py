@@ -14,6 +14,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
+from app.arm.physics_words import thing_in_words
 from app.arm.programs import SAFE_DISTANCE, Wrist
 from app.arm.protocol import HERE, FloatArray
 from app.arm.solver import Solver
@@ -85,14 +86,14 @@ def search(solver: Solver, target: FloatArray, home: FloatArray) -> tuple[bool, 
     """
     inside = solver.inside(target)
     if inside:
-        return False, f"{inside} is in the way"
+        return False, f"{thing_in_words(inside)} is in the way"
     touched: list[str] = []
     for _, name in reaching(solver, target, home):
         if not name:
             return True, ""
         touched.append(name)
     others = [name for name in touched if name != OWN_BODY]
-    return False, f"{others[0]} is in the way" if others else OWN_BODY if touched else ""
+    return False, f"{thing_in_words(others[0])} is in the way" if others else OWN_BODY if touched else ""
 
 
 def way_to(

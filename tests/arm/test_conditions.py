@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.arm import FREE, HERE, ArmClosedError, ArmInputError, Conditions, FloatArray, Jaco, urdf
-from app.arm.physics_words import length_in_words
+from app.arm.physics_words import length_in_words, thing_in_words
 from app.arm.programs import SAFE_DISTANCE
 from app.arm.shapes import Box, Cylinder, Ring, Shape, Sphere, primitives
 from app.arm.verdict import judge
@@ -54,7 +54,7 @@ def test_a_hand_pulled_into_an_obstacle_stops_before_it_and_is_told(
     assert np.abs(np.diff(way, axis=0)).max() <= 0.03 + 1e-9
     assert np.abs(np.diff(way[-50:], axis=0)).max() < 1e-3
     assert shortfall is not None
-    assert shortfall.reason == f"{shape.name} is in the way"
+    assert shortfall.reason == f"{thing_in_words(shape.name)} is in the way"
 
 
 def test_open_fingers_stand_round_a_thin_ring_without_touching_it(jaco: Jaco, right: FloatArray) -> None:
