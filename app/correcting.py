@@ -110,7 +110,7 @@ def _replacing(subject: Subject, original: Demonstration, made: Demonstration) -
     return Choice(
         "Accept",
         "as corrected",
-        f"This replaces {subject.name}, and the tube is learned anew.",
+        f"This replaces {subject.name}, and the tube is learned anew. Going on accepts it, too.",
         f"correct {subject.name}",
         apply,
     )

@@ -17,8 +17,10 @@ from app.library import Library, LibraryError
 from app.server import Server
 from app.viewers import Viewer
 from app.web import code_of
+from gc_core import same_content
 from tests.app.site import (
     changed,
+    first_document,
     grip_of,
     library_in,
     picture,
@@ -367,6 +369,25 @@ def test_a_connection_lost_in_mid_pull_of_a_landmark_keeps_it_where_it_was_pulle
 
     with tab(server, code) as again:
         np.testing.assert_allclose(again.world_position("/landmarks/goal"), goal + BY, atol=1e-6)
+
+
+@pytest.mark.parametrize("node", ["/demonstrations/0", "/reproductions/0"])
+def test_a_connection_lost_in_mid_correction_saves_nothing_and_asks_again(
+    server: Server, library: str, code: str, node: str
+) -> None:
+    with tab(server, code) as client:
+        before = picture(client)
+        pull(client, node, BY, let_go=False)
+        client.wait(lambda c: node in changed(before, picture(c)))
+        client.close()
+
+    with tab(server, code) as again:
+        again.wait(lambda c: any("Discard" in e.props.get("options", ()) and e.usable for e in c.gui))
+        kept = Library(library).load(code)
+        again.press("Discard")
+        again.wait(lambda c: picture(c) == before)
+
+    assert kept is None or same_content(kept, first_document())
 
 
 @pytest.mark.parametrize("wrong", [np.nan, np.inf, 1e30, -11.0])

@@ -30,6 +30,7 @@ from app.pauses import avoid_pauses
 from app.resources import static_folder
 from app.viewers import Viewer
 from gc_core import Demonstration
+from tests.app.makers import place_of
 from tests.panels.desk import Notes
 from tests.support.fake_client import FakeClient
 
@@ -41,6 +42,7 @@ EVENTS = 60
 """Of one drag: three seconds."""
 GROUP = "one drag update"
 NODES = ("/hand", "/landmarks/goal")
+LINES = ("/demonstrations/0", "/reproductions/0")
 SAMPLES = (500, 1500)
 
 
@@ -106,14 +108,14 @@ class Puller:
     def _begin(self) -> None:
         self.now += 10.0
         self.desk.let_go(self.now)
+        self.desk.amend(lambda amending: amending.discard())
         while self.desk.store.undo_name is not None:
             self.desk.undo(self.now)
         self.desk.tick(self.now + 2.0, 0.04)
         self.now += 10.0
         state = self.desk.state()
         self.viewer.draw(state)
-        places = {f"/landmarks/{anchor.name}": anchor.now for anchor in state.model.anchors}
-        self.at = state.hand.position if self.node == "/hand" else places[self.node]
+        self.at = place_of(self.node, state.model, state.hand.position)
         self.way = way_of(self.node, self.at, EVENTS)
         self.desk.drag(self._event("start", self.at))
         self.left = EVENTS
@@ -147,6 +149,14 @@ def test_the_servers_work(
     benchmark: BenchmarkFixture, handle: viser.ClientHandle, jaco: Jaco, node: str, n_samples: int
 ) -> None:
     measure(benchmark, handle, jaco, reaching(n_samples), node)
+
+
+@pytest.mark.benchmark(group=GROUP)
+@pytest.mark.parametrize("node", LINES)
+def test_the_servers_work_for_a_correction(
+    benchmark: BenchmarkFixture, handle: viser.ClientHandle, jaco: Jaco, node: str
+) -> None:
+    measure(benchmark, handle, jaco, reaching(SAMPLES[0]), node)
 
 
 @pytest.mark.benchmark(group=GROUP)

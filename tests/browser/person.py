@@ -158,9 +158,10 @@ class Person:
         """Pull whatever is at a pixel."""
         self.tab.drag(start, (start[0] + by[0], start[1] + by[1]), steps=6, button=button)
 
-    def clearest(self, line: str) -> Pixel:
-        """A pixel of a line where nothing else is near that one could grab."""
+    def clearest(self, line: str, parts: tuple[float, float] = (0.0, 1.0)) -> Pixel:
+        """A pixel of a line, between two parts of it, where nothing else is near that one could grab."""
         own = self._on_screen(line)
+        own = own[int(parts[0] * len(own)) : int(parts[1] * len(own))]
         others = np.vstack([self._on_screen(name) for name in self._grabbable() if name != line])
         gaps = np.linalg.norm(own[:, None] - others[None], axis=2).min(axis=1)
         for index in np.argsort(-gaps):

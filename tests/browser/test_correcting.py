@@ -15,8 +15,9 @@ from app import correcting
 from app.compliance import MEDIUM
 from app.panels.replay import SPEEDS
 from app.proposal import Proposal
-from app.replaying import Corrected, Subject
+from app.replaying import Corrected
 from app.scene.view import VIEWS
+from app.subject import Subject
 from tests.browser.conftest import Visit
 from tests.browser.person import Person
 from tests.support.chromium import Pixel, ViserPage
