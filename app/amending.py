@@ -188,7 +188,7 @@ class Amending:
         proposal = self._pending.proposal
         if proposal.subject is not None and proposal.subject.node == node:
             return None
-        if len(proposal.choices) > 1:
+        if len(proposal.choices) > 1 or not all(choice.records for choice in proposal.choices):
             return FIRST_ANSWER, True
         said = self.answer(0, now)
         return said if said is not None and said[1] else None

@@ -135,6 +135,7 @@ class Desk:
     def open(self, document: Document, now: float) -> None:
         """Put another skill on the desk; can be undone. In an empty one the hand goes home."""
         self.let_go(now)
+        self.amending.settle("", now)
         self.amending.discard()
         self.store.replace(document, f"open {document.title}", now=now)
         self.stage.playback = Playback(playing=bool(document.demonstrations))

@@ -180,17 +180,35 @@ def test_a_slip_of_the_hand_leaves_the_correction_that_waits(desk: Desk, mouse: 
     assert desk.state().proposal is waiting
 
 
-def test_a_line_that_the_arm_cannot_follow_is_not_recorded(
-    desk: Desk, mouse: Mouse, monkeypatch: pytest.MonkeyPatch
-) -> None:
+@pytest.fixture
+def stiff(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> Desk:
+    """A desk whose arm cannot follow where a line is lower than any that was shown."""
+
     def follow(self: object, positions: FloatArray, *_: object) -> JointPath:
         low = positions[:, 2] < demonstration(1).positions[:, 2].min() - 0.01
         return JointPath(np.zeros((len(positions), 2)), np.where(low, 0.03, 0.0))
 
     monkeypatch.setattr(type(desk.stage.arm), "follow", follow)
-    before = desk.store.document
+    return desk
+
+
+def test_a_line_that_the_arm_cannot_follow_is_not_recorded(stiff: Desk, mouse: Mouse) -> None:
+    before = stiff.store.document
     mouse.pull("/demonstrations/1", 6.0 * BY)
 
-    assert desk.state().proposal is None
-    assert desk.store.document is before
-    assert "stays 3.0 cm off" in desk.state().message
+    assert stiff.state().proposal is None
+    assert stiff.store.document is before
+    assert "stays 3.0 cm off" in stiff.state().message
+
+
+def test_a_run_that_the_arm_cannot_follow_can_be_a_rule_only_and_still_asks(
+    stiff: Desk, mouse: Mouse
+) -> None:
+    before = stiff.store.document
+    mouse.pull("/reproductions/0", 6.0 * BY, kept=False)
+    mouse.pull("/landmarks/goal", BY, kept=False)
+    proposal = stiff.state().proposal
+
+    assert proposal is not None
+    assert [choice.label for choice in proposal.choices] == ["Add a rule"]
+    assert stiff.store.document is before
