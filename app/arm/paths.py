@@ -2,13 +2,14 @@
 
 The cheap answer is tried first: begin as the arm stands, or at home. Only when
 that jumps, misses or touches the arm itself or an obstacle are other postures
-scored on a coarse copy of the path; and only when the best one touches something
-is the path solved again: with the bodies kept apart, then with the tool turned as
-it likes.
+scored on a coarse copy of the path; and only when the best one touches something,
+or misses what the copy reached, is the path solved again: with the bodies kept
+apart, from the next best postures, then with the tool turned as it likes.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +21,7 @@ from app.arm.protocol import Clearance, FloatArray, JointPath
 from app.arm.solver import Solver
 
 _N_COARSE = 40
-_N_CHECKED = 100
+_N_CHECKED = 400
 _GOOD_ROOM = 0.8 * SAFE_DISTANCE
 """Kept apart, bodies come a little nearer than asked for; that is near enough [m]."""
 _REACHED = 1e-3
@@ -31,6 +32,14 @@ _LEAP = 1.5
 """A larger one is another posture in all likelihood [rad]."""
 _UNPLAYABLE = 200.0
 """What each radian beyond costs: no arm can leap, while what stands in its way can be moved."""
+_MISSED = 1e5
+"""What each metre of a miss costs on the whole path: reach counts most."""
+_OVERLAP = 100.0
+"""What it costs that the arm touches itself: more than any step that is no leap."""
+_OTHER = 0.1
+"""Postures nearer to each other than this lead the same way [rad]."""
+_N_WALKED = 4
+"""Postures to begin with that are walked on the whole path."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,32 +110,49 @@ def find_path(solver: Solver, course: Course, *, start: FloatArray | None, home:
     """
     n_positions = len(course.positions)
     coarse = course.at(_spread(n_positions, _N_COARSE))
-    best = _best(solver, coarse, start, home, course.wrist)
+    best = _ranked(solver, coarse, start, home, course.wrist)[0]
     path = course.walk(solver, best.joints, course.wrist)
-    if solver.room(path.joints[_spread(n_positions, _N_CHECKED)]) >= SAFE_DISTANCE:
-        return path
-    allowed, cost = max(_REACHED, path.errors.max()), _cost(solver, path)
-    best_free = _best(solver, coarse, start, home, "free")
-    others: tuple[tuple[FloatArray, Wrist, bool], ...] = (
-        (best.joints, course.wrist, True),
-        (best_free.joints, "free", False),
-        (best_free.joints, "free", True),
-    )
-    for begin, wrist, careful in others:
+    cost = _cost(solver, path)
+    clearance = solver.clearance(path.joints[_spread(n_positions, _N_CHECKED)])
+    room = min(clearance.itself.min(), clearance.obstacles.min())
+    if cost < _SMOOTH or (best.missed > 0.0 and room >= SAFE_DISTANCE):
+        return path  # it does, or no posture reaches it all
+    # Whatever stands in the way of the hand itself does so in every posture.
+    walked = _N_WALKED if clearance.obstacles.min() >= _GOOD_ROOM else 1
+    for begin, wrist, careful in _others(solver, coarse, start, home, course.wrist, walked=walked):
         if cost < _SMOOTH:
             break
         other = course.walk(solver, begin, wrist, careful=careful)
         other_cost = _cost(solver, other)
-        if other.errors.max() <= allowed and other_cost < cost:
+        if other_cost < cost:
             path, cost = other, other_cost
     return path
 
 
+def _others(
+    solver: Solver, coarse: Course, start: FloatArray | None, home: FloatArray, wrist: Wrist, *, walked: int
+) -> Iterator[tuple[FloatArray, Wrist, bool]]:
+    """Give other ways to walk: joints to begin with, how the tool is held, whether bodies are kept apart."""
+    begins: list[FloatArray] = []
+    for candidate in _ranked(solver, coarse, start, home, wrist, all_of_them=True):
+        if all(np.abs(candidate.joints - begin).max() > _OTHER for begin in begins):
+            begins.append(candidate.joints)
+    yield begins[0], wrist, True
+    for begin in begins[1:walked]:
+        yield begin, wrist, False
+        yield begin, wrist, True
+    free = _ranked(solver, coarse, start, home, "free")[0]
+    yield free.joints, "free", False
+    yield free.joints, "free", True
+
+
 def _cost(solver: Solver, path: JointPath) -> float:
-    """Weigh touching against jumping: 1 mm too near is as bad as a step of 1 rad, a leap worse than both."""
+    """Weigh touching against jumping: 1 mm too near is as bad as 1 rad; leaps and misses are worse."""
     clearance = solver.clearance(path.joints[_spread(len(path.joints), _N_CHECKED)])
     jump = float(np.abs(np.diff(path.joints, axis=0)).max(initial=0.0))
-    return _tightness(clearance, _GOOD_ROOM) + jump + _UNPLAYABLE * max(0.0, jump - _SMOOTH)
+    missed = _MISSED * max(0.0, float(path.errors.max()) - _REACHED)
+    missed += _OVERLAP * float(clearance.itself.min() < 0.0)
+    return missed + _tightness(clearance, _GOOD_ROOM) + jump + _UNPLAYABLE * max(0.0, jump - _SMOOTH)
 
 
 def _tightness(clearance: Clearance, wanted: float) -> float:
@@ -138,19 +164,22 @@ def _tightness(clearance: Clearance, wanted: float) -> float:
     return 1000.0 * float(np.maximum(0.0, wanted - nearest).sum())
 
 
-def _best(
-    solver: Solver, coarse: Course, start: FloatArray | None, home: FloatArray, wrist: Wrist
-) -> _Candidate:
-    """Give the first good posture to begin with, or the best of all."""
-    best: _Candidate | None = None
+def _ranked(
+    solver: Solver,
+    coarse: Course,
+    start: FloatArray | None,
+    home: FloatArray,
+    wrist: Wrist,
+    *,
+    all_of_them: bool = False,
+) -> list[_Candidate]:
+    """Give postures to begin with, the best first; one good one is enough."""
+    tried: list[_Candidate] = []
     for seed in seeds(start, home):
-        candidate = _try(solver, coarse, seed, wrist)
-        if best is None or candidate.cost < best.cost:
-            best = candidate
-        if best.good:
-            return best
-    assert best is not None  # home is always among them
-    return best
+        tried.append(_try(solver, coarse, seed, wrist))
+        if tried[-1].good and not all_of_them:
+            break
+    return sorted(tried, key=lambda candidate: (not candidate.good, candidate.cost))
 
 
 def _try(solver: Solver, coarse: Course, seed: FloatArray, wrist: Wrist) -> _Candidate:

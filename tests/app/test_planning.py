@@ -57,7 +57,8 @@ def test_a_run_led_through_a_thing_is_told_with_part_time_and_depth_as_physics_f
     assert plan is not None
     with World(through_a_box.model.source.things) as world:
         measured = world.clearance(plan.path.joints)
-    deepest = max(encounters(measured, plan.reproduction.times), key=lambda met: met.depth)
+    met = encounters(measured, plan.reproduction.times)
+    deepest = max(met, key=lambda each: each.depth)
     told = max(
         (problem for problem in plan.verdict.problems if problem.kind == "thing"),
         key=lambda problem: -measured.distances[problem.worst].min(),
@@ -69,7 +70,9 @@ def test_a_run_led_through_a_thing_is_told_with_part_time_and_depth_as_physics_f
     parts = {part_in_words(measured.links[link]) for link in np.flatnonzero(there < there.min() + AGREED)}
     assert any(f"the {part} would be" in told.what for part in parts)
     assert f"{length_in_words(-plan.verdict.nearest.distance)} deep in the box" in told.what
-    assert plan.reproduction.times[told.first] == pytest.approx(deepest.begins, abs=0.1)
+    first, last = plan.reproduction.times[[told.first, told.last]]
+    assert min(abs(each.begins - first) for each in met) < 0.1
+    assert first - 0.1 < deepest.begins < last + 0.1
 
 
 def test_the_worst_problem_is_one_warning_above_the_tabs(through_a_box: Desk) -> None:
