@@ -33,6 +33,8 @@ class Rules:
 
     def __init__(self, api: viser.SceneApi) -> None:
         self._planes = Mesh(api, "/rules/planes", color=REFINED, opacity=PLANE_OPACITY, side="double")
+        self._planes.show(*quads(np.zeros((1, 3)), np.eye(3)[:1]))  # early, see `Tube`
+        self._planes.hide()
         self._arrows = Line(api, "/rules/arrows", color=REFINED, thickness=ARROW_WIDTH)
         self._changed = Changed()
 

@@ -59,6 +59,7 @@ class Scene:
         self._parts: tuple[Part, ...] = (
             Tube(api),  # first, see there
             FormerTube(api),
+            Rules(api),
             ArmFrames(api, arm),
             Directrix(api, actions),
             Section(api),
@@ -68,7 +69,6 @@ class Scene:
             Starts(api, actions, clock, self._eye),
             Landmarks(api, actions, clock, self._eye),
             Replay(api),
-            Rules(api),
             SuggestionDisc(api),
             Things(api, actions, clock),
             Recording(api),

@@ -41,7 +41,6 @@ FORMER_OPACITY: Final = 0.12
 """Of the tube as it was taught, while landmarks are moved."""
 PLANE_OPACITY: Final = 0.25
 """Of the planes of rules."""
-SUGGESTION_OPACITY: Final = 0.55
 
 THIN: Final = 2.0
 THICK: Final = 4.0

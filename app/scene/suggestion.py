@@ -10,7 +10,7 @@ from app.document import FloatArray
 from app.model import Model
 from app.scene.geometry import Faces, Vertices, across
 from app.scene.nodes import Label, Mesh
-from app.scene.style import DEMONSTRATION, SUGGESTION_OPACITY
+from app.scene.style import DEMONSTRATION
 from app.store import State
 from app.suggestions import Suggestion
 
@@ -27,7 +27,8 @@ class SuggestionDisc:
     """``/suggestion``; out of sight while something is pulled, replayed or asked."""
 
     def __init__(self, api: viser.SceneApi) -> None:
-        self._disc = Mesh(api, "/suggestion", color=DEMONSTRATION, opacity=SUGGESTION_OPACITY, side="double")
+        # Solid: bodies that can be picked are invisible, but would cut holes into a translucent one.
+        self._disc = Mesh(api, "/suggestion", color=DEMONSTRATION, side="double")
         self._label = Label(api, "/suggestion/words")
         self._model: Model | None = None
         self._suggestion: Suggestion | None = None
