@@ -46,7 +46,8 @@ def pauses(demonstration: Demonstration) -> tuple[Pause, ...]:
     apart = np.flatnonzero(begins[1:] > ends[:-1])
     spans = zip(np.append(begins[:1], begins[1:][apart]), np.append(ends[:-1][apart], ends[-1:]), strict=True)
     found = [_pause(demonstration, int(first), int(last)) for first, last in spans]
-    return tuple(pause for pause in found if not _grips(demonstration, pause))
+    # Where a recording has a gap nobody knows what the hand did.
+    return tuple(pause for pause in found if pause.last > pause.first and not _grips(demonstration, pause))
 
 
 def trimmed(demonstration: Demonstration) -> Demonstration:
