@@ -22,7 +22,7 @@ from app.linepull import LinePull
 from app.model import learn
 from app.offering import Offering
 from app.stage import Stage
-from app.store import Plan, Playback, State, Store
+from app.store import Plan, State, Store
 from app.surroundings import conditions_of
 
 SLIP: Final = 0.001
@@ -138,7 +138,7 @@ class Desk:
         self.amending.settle("", now)
         self.amending.discard()
         self.store.replace(document, f"open {document.title}", now=now)
-        self.stage.playback = Playback(playing=bool(document.demonstrations))
+        self.stage.open(playing=bool(document.demonstrations))
         if document.demonstrations:
             self.stage.driver.lead()
         else:

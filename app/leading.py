@@ -120,7 +120,8 @@ class Leading:
         shown = drawn.taken_back(drawn.demonstration(part), among)
         desk.store.edit(lambda d: drawn.added(d, shown), "demonstrate", now=now)
         learned_from = [s.demonstration for s in desk.store.document.demonstrations if not s.muted]
-        said = sentences.demonstrated(part, learned_from, shown)
+        goal = next((anchor.now for anchor in among.anchors if anchor.kind == "goal"), None)
+        said = sentences.demonstrated(part, learned_from, shown, goal)
         desk.say(said if back else f"{said} {sentences.NO_WAY_BACK}", warning=shown.muted or not back)
 
     def _hold_as_it_is(self, pull: HandPull, hand: Hand) -> None:

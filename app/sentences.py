@@ -3,9 +3,14 @@
 from collections.abc import Sequence
 from typing import Final
 
+import numpy as np
+
+from app.document import FloatArray
 from app.drawn import Drawn, TakenBack
 from gc_core import Demonstration
 
+SHORT_OF: Final = 0.10
+"""A demonstration that ends farther from the goal was perhaps let go too early [m]."""
 NO_WAY_BACK: Final = "The arm found no clear way back, so it stays here."
 
 
@@ -17,8 +22,10 @@ def too_short(drawn: Drawn) -> str:
     )
 
 
-def demonstrated(drawn: Drawn, learned_from: Sequence[Demonstration], kept: TakenBack) -> str:
-    """A demonstration was kept, perhaps not where it was drawn."""
+def demonstrated(
+    drawn: Drawn, learned_from: Sequence[Demonstration], kept: TakenBack, goal: FloatArray | None
+) -> str:
+    """A demonstration was kept, perhaps not where it was drawn, or it ended far from the goal (3,) [m]."""
     if kept.muted:
         return (
             "This demonstration is kept, but muted: where you drew it the tube is turned inside out, so it "
@@ -32,6 +39,12 @@ def demonstrated(drawn: Drawn, learned_from: Sequence[Demonstration], kept: Take
     more = "Show it once more, a little differently."
     if len(learned_from) >= 3:
         more = f"The tube holds {len(learned_from)} now."
+    short = 0.0 if goal is None else float(np.linalg.norm(drawn.positions[-1] - goal))
+    if short > SHORT_OF:
+        more = (
+            f"It ended {100.0 * short:.0f} cm from the goal, and the tube goes there, too. "
+            "If that was not meant, undo it, and pull the hand all the way."
+        )
     n_held = sum(shown.orientations is not None for shown in learned_from)
     if 0 < n_held < len(learned_from):
         more = (

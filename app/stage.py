@@ -56,6 +56,10 @@ class Stage:
         duration = float(runs[run].reproduction.times[-1]) if runs else 0.0
         self.playback = player.with_duration(replace(self.playback, run=run), duration)
 
+    def open(self, *, playing: bool) -> None:
+        """Begin with another skill: what physics made of the former one is forgotten."""
+        self.playback, self._trial = Playback(playing=playing), None
+
     def plan(self, model: Model) -> Plan | None:
         """Give what the arm makes of the run that is played, where it is known."""
         return next((plan for plan in self.plans(model) if plan.run == self.playback.run), None)

@@ -15,7 +15,9 @@ from app.scene.geometry import disc, facing, tube_mesh
 from app.scene.nodes import Mesh
 
 SHARE: Final = 0.8
-"""Radius of a rod as a part of its ball's: nearer to the camera it looks larger."""
+"""Radius of a rod as a part of its ball's."""
+USUAL: Final = 1.8
+"""From a ball to the camera [m]: as seen from there a rod is as thick at its far end as at its ball."""
 TURN: Final = float(np.cos(np.deg2rad(1.5)))
 """Cosine of the change of direction that is worth turning the rod for."""
 
@@ -46,10 +48,11 @@ class Grip:
 
 
 def _rod(radius: float, length: float) -> tuple[np.ndarray, np.ndarray]:
-    """A cylinder along +z with a lid at its far end."""
-    lid, faces = disc(radius, sides=12)
+    """A cone along +z that narrows towards the camera, with a lid at its far end."""
+    end = 1.0 - length / USUAL
+    lid, faces = disc(end * radius, sides=12)
     lid = lid + np.array([0.0, 0.0, length])
     rim = lid[1:].astype(np.float64)
-    side, side_faces = tube_mesh(np.stack([rim * [1.0, 1.0, 0.0], rim]))
+    side, side_faces = tube_mesh(np.stack([rim * [1.0 / end, 1.0 / end, 0.0], rim]))
     vertices = np.concatenate([lid.astype(np.float32), side])
     return vertices, np.concatenate([faces, side_faces + np.uint32(len(lid))])

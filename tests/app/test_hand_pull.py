@@ -99,6 +99,16 @@ def test_a_kept_demonstration_is_announced(desk: Desk, mouse: Mouse) -> None:
     assert "That was a demonstration" in desk.message
 
 
+def test_a_demonstration_that_ends_far_from_the_goal_says_how_far(desk: Desk, mouse: Mouse) -> None:
+    goal = next(anchor.now for anchor in desk.model.anchors if anchor.kind == "goal")
+
+    mouse.pull("/hand", (0.0, 0.0, 0.2))
+
+    away = float(np.linalg.norm(last(desk).positions[-1] - goal))
+    assert away > 0.1
+    assert f"{100.0 * away:.0f} cm from the goal" in desk.message
+
+
 def test_grabbing_the_hand_pauses_the_playback() -> None:
     desk = desk_of()
     mouse = Mouse(desk)

@@ -19,7 +19,7 @@ from app.arm.shapes import Box, Cylinder, Shape
 from app.desk import Desk
 from app.document import Document, Settings, Shown
 from app.simulating import SupersededError, around, simulate
-from app.skills import load_skill
+from app.skills import empty_skill, load_skill
 from app.store import Task
 from app.trial import Trial
 from app.trials import Trials
@@ -251,6 +251,20 @@ def test_what_is_carried_is_there_when_a_landmark_has_its_name(carried_task: Tas
 
 
 @needs_pybullet
+@needs_pybullet
+def test_a_trial_of_another_skill_is_forgotten(carried: tuple[Desk, Trial]) -> None:
+    desk, trial = carried
+    desk.undo(0.0)
+    desk.stage.accept_trial(trial)
+    assert desk.state().trial is not None
+
+    desk.open(empty_skill(), 1.0)
+    forgotten = desk.state().trial
+    desk.undo(2.0)
+
+    assert forgotten is None
+
+
 def test_another_run_ends_the_show_of_a_trial(carried: tuple[Desk, Trial]) -> None:
     desk, trial = carried
     desk.learned()
