@@ -11,8 +11,14 @@ from typing import Any
 import numpy as np
 import tyro
 
+from app.arm.conditions import FREE, Conditions
 from app.commands import Units
+from app.document import View
 from app.files import inspect
+from app.model import learn
+from app.resources import static_folder
+from app.skills import load_skill
+from app.surroundings import conditions_of
 from gc_core import Demonstration, GcError
 
 
@@ -30,35 +36,41 @@ class _Checked:
 
 
 def check(file: tyro.conf.Positional[Path], *, units: Units = "auto", json: bool = False) -> None:
-    """Say whether the arm can do what a file shows, how closely, how fast and how clear of itself.
+    """Say whether the arm can do what a file shows, how closely, how fast, how clear of itself and of things.
 
     Args:
-        file: Recordings or a path (.mat .csv .npy .npz .h5 .hdf5).
+        file: Recordings or a path (.mat .csv .npy .npz .h5 .hdf5), or the name of a built-in skill.
         units: The file's unit of length.
         json: Print one JSON value instead of words.
     """
-    reading = inspect(file)
-    unit = reading.unit if units == "auto" else units
-    checked = _judged(reading.accepted(unit, "as recorded"))
+    if not file.suffix and not file.exists():
+        document = load_skill(static_folder() / "skills", str(file))
+        motions = [shown.demonstration for shown in document.demonstrations]
+        conditions = conditions_of(learn(document), View())
+        title = f"{document.title}: {len(motions)} demonstrations."
+    else:
+        reading = inspect(file)
+        unit = reading.unit if units == "auto" else units
+        motions, conditions = reading.accepted(unit, "as recorded"), FREE
+        title = f"{reading.name}: {reading.summary_in(unit)}"
+    checked = _judged(motions, conditions)
     facts = _facts(checked)
-    text = (
-        json_text.dumps(facts)
-        if json
-        else "\n".join(_words(reading.summary_in(unit), reading.name, checked, facts))
-    )
-    print(text, flush=True)
+    print(json_text.dumps(facts) if json else "\n".join(_words(title, checked, facts)), flush=True)
 
 
-def _judged(motions: list[Demonstration]) -> list[_Checked]:
+def _judged(motions: list[Demonstration], conditions: Conditions) -> list[_Checked]:
     # Only this command of those that work on files needs the arm, which takes a second to import.
     from app.arm import ArmError, Jaco  # noqa: PLC0415
     from app.arm.verdict import judge  # noqa: PLC0415
 
     try:
         arm = Jaco()
+        heeding = arm.under(conditions)
         try:
             return [
-                _Checked(each.name or f"Demonstration {number}", each, judge(arm, each.positions, each.times))
+                _Checked(
+                    each.name or f"Demonstration {number}", each, judge(heeding, each.positions, each.times)
+                )
                 for number, each in enumerate(motions, 1)
             ]
         finally:
@@ -98,12 +110,12 @@ def _sentences(checked: _Checked) -> list[str]:
     ]
 
 
-def _words(summary: str, name: str, checked: list[_Checked], facts: dict[str, Any]) -> list[str]:
+def _words(title: str, checked: list[_Checked], facts: dict[str, Any]) -> list[str]:
     slowest = max(float(each.motion.times[-1]) for each in checked)
     clear = facts["clearance_mm"]
-    around = "the file holds no obstacles" if clear is None else f"{clear:.0f} mm clear of what is around it"
+    around = "nothing stands in its way" if clear is None else f"{clear:.0f} mm clear of what is around it"
     return [
-        f"{name}: {summary}",
+        title,
         f"The arm reaches {_percent(100.0 * facts['reached'])} of the samples within 1 mm; the largest miss "
         f"is {facts['max_error_mm']:.2f} mm, the largest joint step {facts['max_joint_step_rad']:.3f} rad.",
         f"As recorded (up to {slowest:.1f} s) its fastest joint runs at "

@@ -127,6 +127,15 @@ def test_a_file_that_cannot_be_read_is_said_in_one_sentence(
     assert "Traceback" not in told.err
 
 
+def test_a_built_in_skill_is_checked_among_its_things(capsys: pytest.CaptureFixture[str]) -> None:
+    check(Path("around_an_obstacle"), json=True)
+    facts = json.loads(capsys.readouterr().out)
+
+    assert facts["reached"] == 1.0
+    assert facts["clearance_mm"] > 10.0
+    assert not any("deep" in problem for problem in facts["problems"])
+
+
 def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
     with pytest.raises(FileError, match=r"nowhere\.csv"):
         check(tmp_path / "nowhere.csv")
