@@ -134,5 +134,7 @@ def _joins(
     ratios[~projected] = found.ratios[met]
     stations[off] = index[off]
     angles[off], ratios[off] = in_section(cylinder.sweep, starts[off], index[off], np.zeros(off.size))
+    whole = np.rint(stations)
+    stations = np.where(np.abs(stations - whole) <= TIE, whole, stations)  # else two samples in one place
     latest = cylinder.sweep.last - LAST_PART
     return Joins(np.minimum(stations, latest), angles, ratios, inside, projected)

@@ -28,7 +28,7 @@ class ProposalPanel:
             self._said = gui.add_html("")
             self._answers = gui.add_button_group("", (DISCARD,))
             self._looks = gui.add_button_group(
-                "Show it", (DISCARD,), visible=False, hint="What is shown as if it were chosen already."
+                "Show it", (SHOWN.strip(),), visible=False, hint="What is shown as if it were chosen already."
             )
         on_choice(self._answers, self._answer)
         on_choice(self._looks, actions.preview)
