@@ -18,6 +18,8 @@ SHARE: Final = 0.8
 """Radius of a rod as a part of its ball's."""
 USUAL: Final = 1.8
 """From a ball to the camera [m]: as seen from there a rod is as thick at its far end as at its ball."""
+BEFORE: Final = 0.7
+"""A rod ends before this part of the way to the camera, which would else be in it."""
 TURN: Final = float(np.cos(np.deg2rad(1.5)))
 """Cosine of the change of direction that is worth turning the rod for."""
 
@@ -29,7 +31,7 @@ class Grip:
         self._mesh = Mesh(api, f"{ball}/grip", opacity=0.0)
         self._radius, self._length = SHARE * radius, length
         self._towards: FloatArray | None = None
-        self._scale = 1.0
+        self._size = (1.0, 1.0, 1.0)
 
     def aim(self, place: FloatArray, camera: FloatArray, *, scale: float = 1.0) -> None:
         """Point from the ball's place (3,) to the camera (3,) [m]; costs nothing when it does already."""
@@ -37,14 +39,16 @@ class Grip:
         if away < 1e-6:
             return
         towards = (camera - place) / away
-        first = self._towards is None
-        if self._towards is not None and scale == self._scale and towards @ self._towards > TURN:
+        shorter = float(np.floor(10.0 * BEFORE * away / (scale * self._length))) / 10.0
+        size = (scale, scale, scale * min(max(shorter, 0.1), 1.0))
+        if self._towards is not None and size == self._size and towards @ self._towards > TURN:
             return
+        first = self._towards is None
         handle = self._mesh.handle or self._mesh.show(*_rod(self._radius, self._length))
-        if scale != self._scale or first:
-            handle.scale = scale
+        if size != self._size or first:
+            handle.scale = size
         handle.wxyz = facing(towards)
-        self._towards, self._scale = towards, scale
+        self._towards, self._size = towards, size
 
 
 def _rod(radius: float, length: float) -> tuple[np.ndarray, np.ndarray]:

@@ -105,7 +105,7 @@ def depth_ratio(camera: FloatArray, look_at: FloatArray, hit: FloatArray, origin
     ahead = look_at - camera
     near, far = float((hit - camera) @ ahead), float((origin - camera) @ ahead)
     ratio = far / near if near > 0.0 else 1.0
-    return ratio if 0.5 < ratio < 2.0 else 1.0
+    return ratio if 0.2 < ratio < 5.0 else 1.0
 
 
 def levelled(camera: FloatArray, pointer: FloatArray, height: float) -> FloatArray:

@@ -299,6 +299,18 @@ def test_the_grip_of_the_hand_points_at_the_camera(stage: Stage) -> None:
     np.testing.assert_allclose(ahead, [0.0, 0.0, 1.0], atol=1e-9)
 
 
+@pytest.mark.parametrize("near", [0.3, 0.8, 3.0])
+def test_no_grip_reaches_the_camera(stage: Stage, near: float) -> None:
+    shown = state()
+    goal = next(anchor.now for anchor in shown.model.anchors if anchor.kind == "goal")
+    stage.scene.look_from(goal + np.array([0.0, 0.0, near]))
+    stage.draw(shown)
+    grip = stage.client.node("/landmarks/goal/grip")
+    length = grip.array("vertices", -1, 3)[:, 2].max() * grip.props["scale"][2]
+
+    assert 0.0 < length < near
+
+
 @pytest.mark.parametrize("nowhere", [np.full(3, np.nan), np.zeros(4), np.array(["a", "b", "c"])])
 def test_a_camera_that_is_nowhere_turns_no_grip_and_keeps_the_scene_drawing(
     stage: Stage, nowhere: np.ndarray
