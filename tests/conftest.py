@@ -7,9 +7,11 @@ import pytest
 
 from tests.support.chromium import chromium, open_page
 
-# Laws are not timed: the machine may be busy.
-hypothesis.settings.register_profile("untimed", deadline=None)
-hypothesis.settings.load_profile("untimed")
+# Laws are not timed, since the machine may be busy, and try the same examples each time, since whether a
+# change may land must not be luck; `--hypothesis-profile=search` looks for new ones.
+hypothesis.settings.register_profile("same", deadline=None, derandomize=True)
+hypothesis.settings.register_profile("search", deadline=None)
+hypothesis.settings.load_profile("same")
 
 __all__ = ["chromium", "open_page"]
 

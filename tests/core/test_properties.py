@@ -102,7 +102,7 @@ def test_every_effective_point_is_in_its_plane_and_inside_its_section(
 
 
 @some
-@given(bundle=bundles(), section=sections, align_by=alignments, turn=seeds)
+@given(bundle=bundles(), section=sections, align_by=st.sampled_from(("time", "arc_length")), turn=seeds)
 def test_a_moved_bundle_has_the_moved_cylinder(
     bundle: Bundle, section: str, align_by: str, turn: int
 ) -> None:
@@ -110,7 +110,7 @@ def test_a_moved_bundle_has_the_moved_cylinder(
     here = learned(bundle, section, align_by)
     there = learned(Bundle(moved(bundle.shown, linear, shift), bundle.size), section, align_by)
 
-    exact = 1e-6 * bundle.size
+    exact = 1e-6 * bundle.size  # not by warping, whose ties rounding decides
     np.testing.assert_allclose(there.directrix, here.directrix @ linear.T + shift, atol=exact)
     np.testing.assert_allclose(there.frames[:, :, 0], here.frames[:, :, 0] @ linear.T, atol=1e-5)
     # An end of a demonstration that lies on the first or last plane is before or behind it by rounding.
