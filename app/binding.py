@@ -110,6 +110,14 @@ class Binding(Generic[T]):
         return truth == former and bool(pending)
 
 
+def name_field(
+    gui: viser.GuiApi, label: str, read: Callable[[State], str], write: Callable[[str], None]
+) -> Binding[str]:
+    """Add a text field for a name, which is never empty."""
+    field = gui.add_text(label, "")
+    return Binding(field, read=read, write=write, accept=lambda name: bool(name.strip()), typed=True)
+
+
 def on_press(button: viser.GuiButtonHandle, action: Callable[[], None]) -> None:
     """Post an action whenever a person presses a button."""
 

@@ -12,6 +12,8 @@ LARGEST_COORDINATE: Final = 10.0
 """No point of a document lies farther from the base than this [m]."""
 LONGEST_NAME: Final = 80
 """Of a skill or a thing in it [letters]."""
+LONGEST_IN_SCENE: Final = 40
+"""Of a thing that is named in the scene [letters]."""
 
 _T = TypeVar("_T")
 
@@ -44,6 +46,24 @@ def point(values: Sequence[float] | FloatArray) -> FloatArray:
         )
     p.setflags(write=False)
     return p
+
+
+def renamed(noun: str, name: str, former: str, taken: Sequence[str]) -> str:
+    """Check a new name of a thing in the scene; the former one where nothing else was typed.
+
+    Raises
+    ------
+    EditError
+        If it is taken, or could not be a name in the scene.
+    """
+    name = " ".join(name.split())[:LONGEST_IN_SCENE]
+    if not name or name == former:
+        return former
+    if "/" in name:
+        raise EditError(f"The name of a {noun} cannot have a / in it. Use another sign.")
+    if name in taken:
+        raise EditError(f"There is something called {name} already. Choose another name.")
+    return name
 
 
 def next_number(noun: str, names: Sequence[str]) -> int:

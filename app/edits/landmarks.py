@@ -7,12 +7,10 @@ from typing import Final
 import numpy as np
 
 from app.document import LANDMARK_KINDS, Document, FloatArray, LandmarkKind, Place
-from app.edits.checks import EditError, next_number, one_of, point, without
+from app.edits.checks import EditError, at, next_number, one_of, point, renamed, without
 
 MOST_LANDMARKS: Final = 12
 """Landmarks of one skill."""
-LONGEST: Final = 40
-"""Of a landmark's name [letters]."""
 STRONGEST_SMOOTHING: Final = 1.0
 KIND_NAMES: Final[Mapping[LandmarkKind, str]] = {
     "start": "start",
@@ -78,17 +76,12 @@ def remove_landmark(document: Document, name: str) -> Document:
 
 def rename_landmark(document: Document, index: int, name: str) -> Document:
     """Call a landmark something else; no two have the same name."""
-    if not 0 <= index < len(document.landmarks):
-        raise EditError(f"There is no landmark {index + 1}; there are {len(document.landmarks)}.")
-    name, former = " ".join(name.split())[:LONGEST], document.landmarks[index]
-    if not name or name == former.name:
+    former = at(document.landmarks, index, "landmark")
+    name = renamed("landmark", name, former.name, [other.name for other in document.landmarks])
+    if name == former.name:
         return document
-    if "/" in name:
-        raise EditError("The name of a landmark cannot have a / in it. Use another sign.")
     if name in ("start", "goal") and name != former.kind:
         raise EditError(f"Only the {name} of the motion is called {name}. Choose another name.")
-    if any(other.name == name for other in document.landmarks):
-        raise EditError(f"There is a landmark called {name} already. Choose another name.")
     return _with_landmark(document, index, replace(former, name=name))
 
 

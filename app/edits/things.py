@@ -13,12 +13,10 @@ import numpy as np
 from app import measures
 from app.anchors import quaternion
 from app.document import THING_KINDS, Box, Cylinder, Document, FloatArray, Ring, Shape, Sphere, ThingKind
-from app.edits.checks import EditError, next_number, one_of, point, without
+from app.edits.checks import EditError, at, next_number, one_of, point, renamed, without
 
 MOST_THINGS: Final = 12
 """Things of one skill."""
-LONGEST: Final = 40
-"""Of a thing's name [letters]."""
 SMALLEST: Final = 0.005
 """No measure of a thing is less [m]."""
 LARGEST: Final = 2.0
@@ -136,16 +134,9 @@ def weigh_thing(document: Document, name: str, mass: float) -> Document:
 
 def rename_thing(document: Document, index: int, name: str) -> Document:
     """Call a thing something else; no two have the same name."""
-    if not 0 <= index < len(document.things):
-        raise EditError(f"There is no thing {index + 1}; there are {len(document.things)}.")
-    name, former = " ".join(name.split())[:LONGEST], document.things[index]
-    if not name or name == former.name:
-        return document
-    if "/" in name:
-        raise EditError("The name of a thing cannot have a / in it. Use another sign.")
-    if name == TAKEN or any(other.name == name for other in document.things):
-        raise EditError(f"There is something called {name} already. Choose another name.")
-    return _with_thing(document, former, replace(former, name=name))
+    former = at(document.things, index, "thing")
+    name = renamed("thing", name, former.name, (TAKEN, *(other.name for other in document.things)))
+    return document if name == former.name else _with_thing(document, former, replace(former, name=name))
 
 
 def remove_thing(document: Document, name: str) -> Document:

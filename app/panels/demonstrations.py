@@ -8,7 +8,7 @@ import viser
 from app import advising, edits
 from app.actions import Actions
 from app.advising import FAULT_WORDS, FIX_WORDS
-from app.binding import QUIET, Binding, Rows, anything, assign, on_choice, on_press
+from app.binding import QUIET, Binding, Rows, anything, assign, name_field, on_choice, on_press
 from app.document import Document, Shown
 from app.panels import words
 from app.quality import Note
@@ -117,12 +117,8 @@ class DemonstrationRow:
             change = partial(edits.rename_demonstration, index=self._index, name=name)
             self._actions.edit(change, "rename a demonstration", f"rename demonstration {self._index}")
 
-        return Binding(
-            gui.add_text("Name", ""),
-            read=lambda state: state.document.demonstrations[self._index].demonstration.name,
-            write=write,
-            accept=lambda name: bool(name.strip()),
-            typed=True,
+        return name_field(
+            gui, "Name", lambda state: state.document.demonstrations[self._index].demonstration.name, write
         )
 
     @property

@@ -10,7 +10,7 @@ import viser
 from app import bending, edits
 from app.actions import Actions
 from app.anchors import Anchor
-from app.binding import QUIET, Binding, Changed, Rows, assign, on_choice, on_press
+from app.binding import QUIET, Binding, Changed, Rows, assign, name_field, on_choice, on_press
 from app.document import Document, FloatArray, Place
 from app.panels import words
 from app.panels.position_field import PositionField
@@ -98,13 +98,7 @@ class LandmarkRow:
             change = partial(edits.rename_landmark, index=self._index, name=name)
             self._actions.edit(change, "rename a landmark", f"rename landmark {self._index}")
 
-        return Binding(
-            gui.add_text("Called", ""),
-            read=lambda state: state.document.landmarks[self._index].name,
-            write=write,
-            accept=lambda name: bool(name.strip()),
-            typed=True,
-        )
+        return name_field(gui, "Called", lambda state: state.document.landmarks[self._index].name, write)
 
     def _now(self, _: State) -> FloatArray | None:
         return None if self._anchor is None else self._anchor.now

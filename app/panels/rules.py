@@ -8,7 +8,7 @@ import viser
 
 from app import biting, edits
 from app.actions import Actions
-from app.binding import Binding, Changed, Rows, anything, assign, on_choice
+from app.binding import Binding, Changed, Rows, anything, assign, name_field, on_choice
 from app.document import Document, Rule
 from app.linepull import NARROWEST, WIDEST
 from app.panels import words
@@ -124,13 +124,7 @@ class RuleRow:
             change = partial(edits.rename_rule, index=self._index, name=name)
             self._actions.edit(change, "rename a rule", f"rename rule {self._index}")
 
-        return Binding(
-            gui.add_text("Rule's name", ""),
-            read=lambda state: state.document.rules[self._index].name,
-            write=write,
-            accept=lambda name: bool(name.strip()),
-            typed=True,
-        )
+        return name_field(gui, "Rule's name", lambda state: state.document.rules[self._index].name, write)
 
     def _show_arrows(self) -> None:
         self._actions.look(rule=None if self._seen else self._index)

@@ -9,7 +9,7 @@ import viser
 
 from app import edits, measures, placing
 from app.actions import Actions
-from app.binding import Binding, Changed, Rows, assign, on_choice
+from app.binding import Binding, Changed, Rows, assign, name_field, on_choice
 from app.document import THING_KINDS, Document, Shape, ThingKind, View
 from app.edits.things import HEAVIEST, LARGEST, SMALLEST
 from app.panels import words
@@ -134,13 +134,7 @@ class ThingRow:
             change = partial(edits.rename_thing, index=self._index, name=name)
             self._actions.edit(change, "rename a thing", f"rename thing {self._index}")
 
-        return Binding(
-            gui.add_text("Called", ""),
-            read=lambda state: state.document.things[self._index].name,
-            write=write,
-            accept=lambda name: bool(name.strip()),
-            typed=True,
-        )
+        return name_field(gui, "Called", lambda state: state.document.things[self._index].name, write)
 
     def _add_size(self, gui: viser.GuiApi, number: int) -> tuple[viser.GuiInputHandle[float], Binding[float]]:
         def write(value: float) -> None:

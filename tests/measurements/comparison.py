@@ -15,6 +15,7 @@ from app.comparison import Comparison, Task, claims, compare
 from app.resources import static_folder
 from app.skills import load_skill, skill_names
 from tests.helpers_data import ALL_SETS, DATA, load
+from tests.measurements.pages import put
 
 STARTS = 20
 INTRODUCTION = f"""# The tube beside other methods
@@ -76,10 +77,7 @@ def main(*, out: Path | None = None) -> None:
         broken += [f"- *{name}*: {claim.sentence}" for claim in told if not claim.holds]
     table += ["", f"Of Fig. 9's claims {held} of {held + len(broken)} hold.", *broken]
     page = "\n".join(table) + "\n"
-    if out is None:
-        print(page)
-    else:
-        out.write_text(page, encoding="utf-8")
+    put(page, out)
 
 
 if __name__ == "__main__":

@@ -24,6 +24,7 @@ from gc_core.radius import GREATEST_SLOPE
 from gc_core.sections import SECTIONS
 from tests.helpers_data import ALL_SETS, DATA, load
 from tests.measurements import geometry, runs
+from tests.measurements.pages import put
 
 STATIONS: Final = 200
 TIGHT_ANGLES: Final = 128
@@ -331,10 +332,7 @@ def main(
         measured.append(one)
         print(line(one), *broken(one), sep="\n    ", file=sys.stderr, flush=True)
     page = report(measured, starts)
-    if out is None:
-        print(page)
-    else:
-        out.write_text(page, encoding="utf-8")
+    put(page, out)
     if numbers is not None:
         numbers.write_text(json.dumps([asdict(one) for one in measured], indent=1), encoding="utf-8")
 

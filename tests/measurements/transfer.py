@@ -34,6 +34,7 @@ from tests.core.objects import KINDS, LEAN, TURNINGS
 from tests.helpers_data import ALL_SETS, DATA, load
 from tests.measurements import geometry, runs
 from tests.measurements.carrying import ERRORS, SEEDS, carried, error_lines, public
+from tests.measurements.pages import put
 from tests.measurements.pulling import PULL, PULLS, STIFFNESSES, TRIALS, pull_line
 
 FARTHEST: Final = 0.2
@@ -302,10 +303,7 @@ def main(*, moves: int = 200, out: Path | None = None) -> None:
         for name in sets:
             parts += error_lines(name, public(name))
     page = "\n".join(parts) + "\n"
-    if out is None:
-        print(page)
-    else:
-        out.write_text(page, encoding="utf-8")
+    put(page, out)
 
 
 if __name__ == "__main__":
