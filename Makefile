@@ -10,7 +10,7 @@ LOCK := UV_CUSTOM_COMPILE_COMMAND="make lock" .venv-lock/bin/uv pip compile --qu
 	--generate-hashes --python-version 3.11 --python-platform x86_64-manylinux_2_28
 # What is compiled while it is installed has a lock file of its own: a machine without a compiler leaves it out.
 COMPILED := movement_primitives
-WHEELS := pyproject.toml --group build --extra physics --extra compare --no-emit-package $(COMPILED)
+WHEELS := pyproject.toml --group build --extra physics --extra compare --extra study --no-emit-package $(COMPILED)
 
 .PHONY: run test check format bench soak fresh wheel lock ready ready-to-test
 
@@ -47,7 +47,7 @@ lock:  ## newest versions that pyproject.toml allows, with hashes
 	python3 -m venv .venv-lock
 	.venv-lock/bin/pip install --quiet uv
 	$(LOCK) $(WHEELS) --output-file requirements.lock
-	$(LOCK) $(WHEELS) --extra dev --constraints requirements.lock --output-file requirements-dev.lock
+	$(LOCK) $(WHEELS) --extra dev --extra postgres --constraints requirements.lock --output-file requirements-dev.lock
 	echo $(COMPILED) | $(LOCK) --no-deps --output-file requirements-compiled.lock -
 
 ready:

@@ -101,8 +101,8 @@ can_compile() {
 }
 
 install_unlocked() {
-    local extra=""
-    [ "$purpose" = test ] && extra="[dev]"
+    local extra="[study]"
+    [ "$purpose" = test ] && extra="[study,dev,postgres]"
     say "this is Python $version on $(uname -m): without the lock file, and without physics (pybullet), which" \
         "needs Python 3.11 on x86_64."
     pip_install --editable ".$extra"
