@@ -8,16 +8,15 @@ from __future__ import annotations
 
 import json as json_text
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, TypeAlias, cast
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import tyro
-from numpy.typing import NDArray
 
 from app.document import FloatArray, Settings
-from app.files import FileError, Reading, Unit, UnknownFormatError, inspect, write
+from app.files import Reading, Unit, UnknownFormatError, format_glb, format_tube, inspect, put, write
 from gc_core import Demonstration, GeneralizedCylinder, Reproduction
 from gc_core import encode as learn_cylinder
 from gc_core import reproduce as run_from
@@ -25,7 +24,6 @@ from gc_core import reproduce as run_from
 Section: TypeAlias = Literal["circle", "ellipse", "closed_spline", "hull"]
 AlignBy: TypeAlias = Literal["time", "arc_length", "dtw"]
 Law: TypeAlias = Literal["fixed", "convergent"]
-Indices: TypeAlias = NDArray[np.int64]
 Units: TypeAlias = Literal["auto"] | Unit
 
 _DEFAULT = Settings()
@@ -54,7 +52,7 @@ def encode(
     """Learn the tube of a file's demonstrations and say what it is like.
 
     Args:
-        file: Recordings (.mat .csv .npy .npz .h5 .hdf5).
+        file: Recordings (.mat .csv .npy .npz .h5 .hdf5 .gcteach).
         section: Kind of the cross-sections.
         stations: Number of cross-sections along the middle line.
         align_by: What brings the demonstrations into correspondence.
@@ -86,7 +84,7 @@ def reproduce(
     """Perform the skill of a file from a new start and say how it went.
 
     Args:
-        file: Recordings (.mat .csv .npy .npz .h5 .hdf5).
+        file: Recordings (.mat .csv .npy .npz .h5 .hdf5 .gcteach).
         start: Where the run begins, x y z in metres.
         law: Keep the ratio eta, or let it shrink so that the run ends on the middle line.
         section: Kind of the cross-sections.
@@ -104,35 +102,6 @@ def reproduce(
         write(out, [Demonstration(run.times, run.positions, run.orientations, run.gripper, "Reproduction")])
     facts = _run_facts(learned.cylinder, run) | {"out": None if out is None else str(out)}
     _say(json_text.dumps(facts) if json else _run_words(learned, run, out))
-
-
-def tube_mesh(cylinder: GeneralizedCylinder) -> tuple[FloatArray, Indices]:
-    """Make a closed surface of a tube.
-
-    Returns
-    -------
-    vertices : (N * M + 2, 3) array
-        The sections' corners, then the centres of the two ends [m].
-    faces : (2 * N * M, 3) array
-        Corners of triangles, counter-clockwise from outside.
-    """
-    surface = cylinder.surface()
-    n, m = surface.shape[:2]
-    corner = np.arange(n * m, dtype=np.int64).reshape(n, m)
-    beside = np.asarray(np.roll(corner, -1, axis=1), dtype=np.int64)
-    a, b, c, d = corner[:-1], beside[:-1], corner[1:], beside[1:]
-    start, end = np.full(m, n * m), np.full(m, n * m + 1)
-    faces = [
-        _triangles(a, b, c),
-        _triangles(b, d, c),
-        _triangles(start, beside[0], corner[0]),
-        _triangles(end, corner[-1], beside[-1]),
-    ]
-    return np.concatenate([surface.reshape(-1, 3), cylinder.directrix[[0, -1]]]), np.concatenate(faces)
-
-
-def _triangles(a: Indices, b: Indices, c: Indices) -> Indices:
-    return np.stack([a.ravel(), b.ravel(), c.ravel()], axis=1)
 
 
 def _learn(file: Path, section: Section, stations: int, align_by: AlignBy, units: Units) -> Learned:
@@ -219,32 +188,7 @@ def _check_suffix(path: Path, known: Sequence[str]) -> None:
 
 
 def _save(path: Path, cylinder: GeneralizedCylinder) -> None:
-    try:
-        if path.suffix.lower() == ".npz":
-            values: dict[str, Any] = {field.name: getattr(cylinder, field.name) for field in fields(cylinder)}
-            arrays: dict[str, Any] = {
-                name: value for name, value in values.items() if isinstance(value, np.ndarray)
-            }
-            with path.open("wb") as file:
-                np.savez_compressed(
-                    file,
-                    allow_pickle=False,
-                    surface=cylinder.surface(),
-                    arc_length=cylinder.arc_length,
-                    crossing=cylinder.diagnostics.crossing,
-                    section=np.array(cylinder.section),
-                    **arrays,
-                )
-        else:
-            import trimesh  # noqa: PLC0415 - half a second that only this needs
-
-            vertices, faces = tube_mesh(cylinder)
-            tube = cast("Any", trimesh).Trimesh(vertices, faces, process=False)
-            path.write_bytes(tube.export(file_type="glb"))
-    except OSError as error:
-        raise FileError(
-            path.name, f"{path} cannot be written: {error.strerror}. Choose another folder."
-        ) from error
+    put(path, format_tube(cylinder) if path.suffix.lower() == ".npz" else format_glb(cylinder))
 
 
 def _say(text: str) -> None:

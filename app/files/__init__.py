@@ -11,7 +11,9 @@ from app.files.errors import (
 )
 from app.files.reading import Reading
 from app.files.recording import MOST_DEMONSTRATIONS, MOST_SAMPLES, Unit
-from app.files.registry import FORMATTERS, LARGEST_FILE, PARSERS, inspect, inspect_bytes, read, write
+from app.files.registry import FORMATTERS, LARGEST_FILE, PARSERS, inspect, inspect_bytes, put, read, write
+from app.files.skill_format import SUFFIX, format_skill, open_skill
+from app.files.tube_format import format_glb, format_tube, tube_mesh
 from app.files.units import FRAMES, IN_FRONT, METRES, Frame
 
 __all__ = [
@@ -23,6 +25,7 @@ __all__ = [
     "MOST_DEMONSTRATIONS",
     "MOST_SAMPLES",
     "PARSERS",
+    "SUFFIX",
     "BadValueError",
     "FileError",
     "Frame",
@@ -33,8 +36,14 @@ __all__ = [
     "Unit",
     "UnknownFormatError",
     "UnreadableError",
+    "format_glb",
+    "format_skill",
+    "format_tube",
     "inspect",
     "inspect_bytes",
+    "open_skill",
+    "put",
     "read",
+    "tube_mesh",
     "write",
 ]

@@ -1,24 +1,29 @@
 """HDF5 recordings of the canal-surface lab: one group a demonstration.
 
 ``<demo>/tf_info/pos_rot_data`` (7, T) holds x, y, z [m] and a quaternion x, y, z, w;
-``<demo>/time_info/time_data`` (2, T) holds seconds and nanoseconds.
+``<demo>/time_info/time_data`` (2, T) holds seconds and nanoseconds. Ours may have
+``<demo>/gripper_info/gripper_data`` (1, T) beside it, and attributes ``name`` and ``oriented``.
 """
 
 from __future__ import annotations
 
 import io
 import math
+from collections.abc import Sequence
 from typing import Any, Final, cast
 
 import h5py  # pyright: ignore[reportMissingTypeStubs]  # it has none
 import numpy as np
 
 from app.document import FloatArray
+from app.files.csv_format import labels, name_of
 from app.files.errors import FileError, TooLargeError, UnreadableError
 from app.files.recording import Contents, Recording, check_count, check_length
+from gc_core import Demonstration
 
 POSES: Final = "tf_info/pos_rot_data"
 TIMES: Final = "time_info/time_data"
+GRIPPER: Final = "gripper_info/gripper_data"
 LARGEST_CHUNK: Final = 64 * 2**20
 """What one packed piece of an array may unpack to [bytes]; HDF5 unpacks whole pieces."""
 _h5: Any = cast("Any", h5py)
@@ -43,6 +48,30 @@ def parse_hdf5(name: str, content: bytes) -> Contents:
         raise UnreadableError(name, "it is damaged or no HDF5 file", _REMEDY) from error
 
 
+def format_hdf5(demonstrations: Sequence[Demonstration]) -> bytes:
+    """Write demonstrations: positions exactly, times to the nanosecond.
+
+    Where no orientation was recorded, that of no turn is written, as the lab's programs expect seven rows;
+    the attribute ``oriented`` then says so.
+    """
+    out = io.BytesIO()
+    with _h5.File(out, "w") as file:
+        for number, (label, d) in enumerate(
+            zip(labels(demonstrations), demonstrations, strict=True), start=1
+        ):
+            group = file.create_group(f"demo{number:03d}")
+            group.attrs["name"] = label
+            group.attrs["oriented"] = d.orientations is not None
+            turns = np.tile([1.0, 0.0, 0.0, 0.0], (len(d.times), 1))
+            turns = turns if d.orientations is None else d.orientations
+            group[POSES] = np.vstack([d.positions.T, turns[:, [1, 2, 3, 0]].T])
+            seconds = np.floor(d.times)
+            group[TIMES] = np.stack([seconds, (d.times - seconds) * 1e9])
+            if d.gripper is not None:
+                group[GRIPPER] = d.gripper[None]
+    return out.getvalue()
+
+
 def _recordings(name: str, file: Any) -> tuple[Recording, ...]:
     keys: list[str] = list(file)
     groups = [key for key in keys if _within(file, f"{key}/{POSES}")]
@@ -62,11 +91,18 @@ def _recording(name: str, key: str, group: Any, *, single: bool) -> Recording:
         clock = np.array(group[TIMES], dtype=np.float64)
         # Seconds since 1970 leave no digits for nanoseconds: count from the first.
         times = (clock[0] - clock[0, :1]) + (clock[1] - clock[1, :1]) * 1e-9
+    gripper: FloatArray | None = None
+    if _within(group, GRIPPER):
+        if _columns(name, group, f"{key}/{GRIPPER}", GRIPPER, rows=1) != n:
+            raise UnreadableError(name, f"{key} has not as many gripper values as positions", _REMEDY)
+        gripper = np.array(group[GRIPPER], dtype=np.float64)[0]
+    label: Any = group.attrs.get("name")
     return Recording(
         positions=poses[:, :3],
         times=times,
-        orientations=poses[:, [6, 3, 4, 5]],
-        name="" if single else key,
+        orientations=poses[:, [6, 3, 4, 5]] if bool(group.attrs.get("oriented", True)) else None,
+        gripper=gripper,
+        name=name_of(label) if isinstance(label, str) else "" if single else key,
     )
 
 

@@ -8,10 +8,7 @@ it trusts the size that a file announces.
 from __future__ import annotations
 
 import io
-import lzma
 import math
-import zipfile
-import zlib
 from collections.abc import Mapping, Sequence
 from tokenize import TokenError
 from typing import Any, Final, cast
@@ -20,13 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.document import FloatArray
+from app.files.archives import members
 from app.files.csv_format import labels, name_of
-from app.files.errors import BadValueError, FileError, PickledError, TooLargeError, UnreadableError
+from app.files.errors import BadValueError, PickledError, UnreadableError
 from app.files.recording import Contents, Recording, check_count, check_length
 from gc_core import Demonstration
 
-LARGEST_UNPACKED: Final = 256 * 2**20
-"""What an ``.npz`` may unpack to [bytes]."""
 _REMEDY: Final = "Save it again with np.save or np.savez."
 _npy: Any = cast("Any", np.lib.format)
 _SHAPES: Final = (
@@ -42,7 +38,7 @@ def parse_npy(name: str, content: bytes) -> Contents:
     FileError
         If the file is damaged, a pickle, too large, or of another shape.
     """
-    return Contents(_recordings(name, _array(name, content), times=None))
+    return Contents(_recordings(name, parse_array(name, content), times=None))
 
 
 def parse_npz(name: str, content: bytes) -> Contents:
@@ -88,34 +84,12 @@ def format_npz(demonstrations: Sequence[Demonstration]) -> bytes:
 
 
 def _members(name: str, content: bytes) -> dict[str, NDArray[Any]]:
-    try:
-        with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            infos = archive.infolist()
-            announced = sum(info.file_size for info in infos)
-            if announced > LARGEST_UNPACKED:
-                raise TooLargeError(name, "unpacks to", announced, LARGEST_UNPACKED, unit="bytes")
-            return {
-                info.filename.removesuffix(".npy"): _array(name, archive.read(info))
-                for info in infos
-                if info.filename.endswith(".npy")
-            }
-    except FileError:
-        raise
-    # What zipfile raises on damaged, encrypted or exotic archives.
-    except (
-        zipfile.BadZipFile,
-        zlib.error,
-        lzma.LZMAError,
-        EOFError,
-        OSError,
-        RuntimeError,
-        ValueError,
-    ) as error:
-        raise UnreadableError(name, "it is damaged or no .npz file", _REMEDY) from error
+    found = members(name, content, lambda member: member.endswith(".npy"), _REMEDY)
+    return {member.removesuffix(".npy"): parse_array(name, packed) for member, packed in found.items()}
 
 
-def _array(name: str, content: bytes) -> NDArray[Any]:
-    """Parse one array, believing its header only as far as there are bytes for it."""
+def parse_array(name: str, content: bytes) -> NDArray[Any]:
+    """Parse one array, believing its header only as far as there are bytes for it; as `parse_npy`."""
     if content[:1] == b"\x80":
         raise PickledError(name)
     stream = io.BytesIO(content)

@@ -8,11 +8,12 @@ from typing import Final, Literal, TypeAlias
 
 from app.files.csv_format import format_csv, parse_csv
 from app.files.errors import FileError, NoFileError, TooLargeError, UnknownFormatError, UnreadableError
-from app.files.hdf5_format import parse_hdf5
-from app.files.mat_format import parse_mat
+from app.files.hdf5_format import format_hdf5, parse_hdf5
+from app.files.mat_format import format_mat, parse_mat
 from app.files.npy_format import format_npz, parse_npy, parse_npz
 from app.files.reading import Reading, describe
 from app.files.recording import Contents, Unit, checked
+from app.files.skill_format import parse_skill
 from app.files.units import Frame
 from gc_core import Demonstration
 
@@ -29,8 +30,15 @@ PARSERS: Final[Mapping[str, Parser]] = {
     ".npz": parse_npz,
     ".h5": parse_hdf5,
     ".hdf5": parse_hdf5,
+    ".gcteach": parse_skill,
 }
-FORMATTERS: Final[Mapping[str, Formatter]] = {".csv": format_csv, ".npz": format_npz}
+FORMATTERS: Final[Mapping[str, Formatter]] = {
+    ".csv": format_csv,
+    ".npz": format_npz,
+    ".mat": format_mat,
+    ".h5": format_hdf5,
+    ".hdf5": format_hdf5,
+}
 
 
 def inspect(path: str | Path) -> Reading:
@@ -70,7 +78,7 @@ def read(
     Parameters
     ----------
     path : str or Path
-        A ``.mat``, ``.csv``, ``.npy``, ``.npz``, ``.h5`` or ``.hdf5`` file.
+        A ``.mat``, ``.csv``, ``.npy``, ``.npz``, ``.h5``, ``.hdf5`` or ``.gcteach`` file.
     units : {"auto", "m", "cm", "mm"}
         The file's unit of length; "auto" guesses, as `inspect` shows.
     frame : {"as recorded", "moved in front of the arm"}
@@ -90,7 +98,7 @@ def read(
 
 
 def write(path: str | Path, demonstrations: Sequence[Demonstration]) -> None:
-    """Write demonstrations [m] so that `read` gives them back: ``.csv`` or ``.npz``.
+    """Write demonstrations [m] so that `read` gives them back, whatever the suffix in ``FORMATTERS``.
 
     Raises
     ------
@@ -101,8 +109,19 @@ def write(path: str | Path, demonstrations: Sequence[Demonstration]) -> None:
     suffix = _known(path.name, FORMATTERS)
     if not demonstrations:
         raise FileError(path.name, f"There is nothing to write to {path.name}. Show the motion first.")
+    put(path, FORMATTERS[suffix](demonstrations))
+
+
+def put(path: Path, content: bytes) -> None:
+    """Write a file.
+
+    Raises
+    ------
+    FileError
+        If it cannot be written.
+    """
     try:
-        path.write_bytes(FORMATTERS[suffix](demonstrations))
+        path.write_bytes(content)
     except OSError as error:
         raise FileError(
             path.name, f"{path} cannot be written: {error.strerror}. Choose another folder."
