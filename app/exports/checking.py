@@ -159,6 +159,13 @@ def _sound(array: NDArray[Any]) -> bool:
 
 def _noun(hint: Any) -> str:
     origin = typing.get_origin(hint)
-    if origin is np.ndarray:
-        return "array of finite numbers"
-    return {tuple: "list", Literal: "known word"}.get(origin, getattr(hint, "__name__", "known value"))
+    words: dict[Any, str] = {
+        np.ndarray: "array of finite numbers",
+        tuple: "list",
+        Literal: "known word",
+        str: "text of moderate length",
+        int: "whole number",
+        float: "finite number",
+        bool: "yes or no",
+    }
+    return words.get(origin or hint, getattr(hint, "__name__", "known value").lower())

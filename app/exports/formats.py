@@ -237,12 +237,12 @@ FORMATS: Final[Mapping[str, Format]] = {
     ),
     ".svg": Format(
         "Figure for a paper (SVG)",
-        "Tube, demonstrations, middle line and runs in the colours of the paper, as lines that can be edited.",
+        "Tube, demonstrations, middle line and runs in the paper's colours, as lines that can be edited.",
         _figure_as("svg"),
     ),
     ".png": Format(
         "Figure for a paper (PNG)",
-        "Tube, demonstrations, middle line and runs in the colours of the paper, as a picture.",
+        "Tube, demonstrations, middle line and runs in the paper's colours, as a picture.",
         _figure_as("png"),
     ),
     ".py": Format(
