@@ -12,17 +12,18 @@ from app.actions import Drag
 from app.document import Document, FloatArray, View
 from app.linepull import LinePull
 from app.model import Model
-from app.proposal import DISCARDED, FIRST_ANSWER, LOST, Pending, Proposal
+from app.proposal import DISCARDED, FIRST_ANSWER, LOST, Choice, Pending, Proposal
 from app.replaying import Replaying
 from app.stage import Stage
 from app.store import Progress, Store
 from app.subject import subject_of
+from gc_core import GcError
 
 CHOOSE: Final = "There is nothing to replay yet. Choose a demonstration or a run."
 PULL_IT: Final = "Pull the hand where the motion should be otherwise; let go, and it eases back."
 ONLY_THE_HAND: Final = "While it replays only the hand can be pulled. Press Stop to work on something else."
 SLIP: Final = 0.001
-"""A line pulled by less than this was pulled by a slip of the hand [m]."""
+"""What is pulled by less than this was pulled by a slip of the hand, and stays as it is [m]."""
 FIRST: Final = "/demonstrations/0"
 """What is replayed when the motion that was chosen is not there any more."""
 _FEELS: Final = {feel.name: feel for feel in compliance.FEELS}
@@ -154,19 +155,31 @@ class Amending:
         return pull
 
     def pulled(self, pull: LinePull, by: FloatArray) -> Said:
-        """Offer what became of a line, unless the arm cannot follow it; a slip changes nothing."""
+        """Offer what became of a line, as far as it can be kept; a slip changes nothing."""
         self._pending, self._aside = self._aside, None
         if pull.reached(by).moved < SLIP:
             return "", False
         proposal = pull.proposal(by)
-        proposal.choices[proposal.previewed].apply(self._store.document)  # raises what is wrong with it
-        fault = linepull.unfollowable(self._stage.arm, proposal)
+        fault, choices = self._possible(proposal.choices)
+        if choices and (stays_off := linepull.unfollowable(self._stage.arm, proposal)):
+            fault, choices = stays_off, tuple(choice for choice in choices if not choice.records)
         if not fault:
             return self.offer(proposal)
-        choices = tuple(choice for choice in proposal.choices if not choice.records)
         if choices:
             self._pending = Pending(replace(proposal, choices=choices, previewed=0))
         return fault, True
+
+    def _possible(self, choices: tuple[Choice, ...]) -> tuple[str, tuple[Choice, ...]]:
+        """Leave out the choices that cannot be made now, and say why; empty where all can."""
+        fault, possible = "", list[Choice]()
+        for choice in choices:
+            try:
+                choice.apply(self._store.document)
+            except GcError as error:
+                fault = str(error)
+            else:
+                possible.append(choice)
+        return fault, tuple(possible)
 
     def settle(self, node: str, now: float) -> Said | None:
         """Make room for another pull: whoever goes on accepts what there is only one thing to do with.
@@ -188,7 +201,7 @@ class Amending:
         proposal = self._pending.proposal
         if proposal.subject is not None and proposal.subject.node == node:
             return None
-        if len(proposal.choices) > 1 or not all(choice.records for choice in proposal.choices):
+        if not all(choice.implied for choice in proposal.choices):
             return FIRST_ANSWER, True
         said = self.answer(0, now)
         return said if said is not None and said[1] else None

@@ -113,6 +113,7 @@ def _replacing(subject: Subject, original: Demonstration, made: Demonstration) -
         f"This replaces {subject.name}, and the tube is learned anew. Going on accepts it, too.",
         f"correct {subject.name}",
         apply,
+        implied=True,
     )
 
 

@@ -10,7 +10,7 @@ from typing import Any, Final
 
 from app import attention, gesture, judgement
 from app.actions import Drag
-from app.amending import Amending, Said
+from app.amending import SLIP, Amending, Said
 from app.arm.protocol import Arm
 from app.document import Document, View
 from app.files import Frame, Reading, Unit
@@ -24,9 +24,8 @@ from app.offering import Offering
 from app.stage import Stage
 from app.store import Plan, State, Store
 from app.surroundings import conditions_of
+from gc_core import GcError
 
-SLIP: Final = 0.001
-"""A pull shorter than this was a slip of the hand and changes nothing [m]."""
 PATIENCE: Final = 0.08
 """A pulled hand moves with the events of the pull; after a longer silence it moves on by itself [s]."""
 
@@ -219,10 +218,12 @@ class Desk:
         self.amend(lambda a: a.start(self.view, self.model, now))
 
     def amend(self, act: Callable[[Amending], Said | None]) -> None:
-        """Do something with the replay or the correction that waits, and say what came of it."""
-        said = act(self.amending)
-        if said is not None:
-            self.say(said[0], warning=said[1])
+        """Do something with the replay or the correction that waits, and say what came of it, or why not."""
+        try:
+            if (said := act(self.amending)) is not None:
+                self.say(said[0], warning=said[1])
+        except GcError as error:
+            self.say(str(error), warning=True)
 
     def choose_run(self, run: int, now: float) -> None:
         """Play another reproduction from its beginning."""
@@ -277,11 +278,16 @@ class Desk:
         self._held = held
 
     def let_go(self, now: float) -> None:
-        """End whatever is pulled, and keep what it did."""
+        """End whatever is pulled, and keep what it did; what cannot be kept is said, and stops nobody."""
         self._end_shows(now)
         held, self._held = self._held, None
-        if held is None:
-            return
+        try:
+            if held is not None:
+                self._keep(held, now)
+        except GcError as error:
+            self.say(str(error), warning=True)
+
+    def _keep(self, held: Grasp, now: float) -> None:
         pull = held.pull
         if isinstance(pull, HandPull):
             self.leading.let_go(pull, pull.finish(), now, held.before)

@@ -48,6 +48,8 @@ class Choice:
     """The edit; the same document where what was corrected is gone."""
     records: bool = True
     """Whether it makes a demonstration, which only holds what the arm can do."""
+    implied: bool = False
+    """Whether going on to something else accepts it: there was only one thing to do."""
 
 
 @dataclass(frozen=True, eq=False)

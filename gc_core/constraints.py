@@ -11,19 +11,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gc_core.arrays import BoolArray, FloatArray, fading, finite, interpolated, read_only_fields
+from gc_core.arrays import BoolArray, FloatArray, finite, interpolated, read_only_fields
 from gc_core.errors import ShapeError, TooFewSamplesError
-from gc_core.frames import arc_length
 from gc_core.half_spaces import ALLOWED, step_to_allowed
+from gc_core.planes import Planes, asked
 from gc_core.registration import ThinPlateSpline
 from gc_core.reproduction import Reproduction
 
 LEAST_CORRECTION = 0.001
 """A station where the correction is shorter makes no plane [m]."""
-
-FADE_LENGTH = 0.08
-"""Beyond a corrected span, what a run was moved in excess of the teacher fades out over this length, or over
-that excess where it is more [m]."""
 
 SAME_PART = 1e-9
 """Parts of the way that differ by less are the same."""
@@ -158,24 +154,6 @@ class Constraint:
         return replace(self, points=points, normals=normals / stretch[:, None], lengths=lengths)
 
 
-@dataclass(frozen=True, eq=False)
-class Planes:
-    """The planes of one constraint at K places along a skill."""
-
-    points: FloatArray
-    """(K, 3) [m]."""
-    normals: FloatArray
-    """(K, 3) unit, or 0 [-]."""
-    lengths: FloatArray
-    """(K,) how far the teacher moved the run [m]."""
-    active: BoolArray
-    """(K,) where there is a plane."""
-
-    def behind(self, run: FloatArray) -> FloatArray:
-        """Tell how far places (K, 3) lie behind the planes (K,), 0 where there is none [m]."""
-        return np.where(self.active, np.einsum("ij,ij->i", self.points - run, self.normals), 0.0)
-
-
 def constrain(reproduction: Reproduction, constraints: Sequence[Constraint]) -> Reproduction:
     """Move a run to the allowed side of all rules, and no further.
 
@@ -275,41 +253,10 @@ def _waiting(run: FloatArray) -> int:
 
 def _moved(run: FloatArray, planes: Sequence[Planes]) -> FloatArray:
     """Move one run (K, 3) behind no plane; untouched samples stay bit-identical."""
-    asked = [_asked(run, one) for one in planes]
-    behind = np.stack([depth for depth, _ in asked], axis=1)
+    behind, normals = asked(run, planes)
     rows = np.flatnonzero((behind > ALLOWED).any(axis=1))
     if not rows.size:
         return run
-    normals = np.stack([across[rows] for _, across in asked], axis=1)
     moved = run.copy()
-    moved[rows] += step_to_allowed(behind[rows], normals)
+    moved[rows] += step_to_allowed(behind[rows], normals[rows])
     return moved
-
-
-def _asked(run: FloatArray, planes: Planes) -> tuple[FloatArray, FloatArray]:
-    """How far (K,) one rule wants the samples of a run (K, 3) moved, and in which directions (K, 3).
-
-    Beyond a span it is what is left of the excess, as if there were a plane so much ahead of the run.
-    """
-    depth = planes.behind(run)
-    excess = np.where(planes.active, np.maximum(depth - planes.lengths, 0.0), 0.0)
-    if planes.active.all() or not excess.any():
-        return depth, planes.normals
-    faded = _faded(run, planes, excess)
-    far = np.sqrt(np.einsum("ij,ij->i", faded, faded))
-    across = faded / np.where(far > 0.0, far, 1.0)[:, None]
-    return np.where(planes.active, depth, far), np.where(planes.active[:, None], planes.normals, across)
-
-
-def _faded(run: FloatArray, planes: Planes, excess: FloatArray) -> FloatArray:
-    """Displacement (K, 3) that is left of an excess (K,) beyond the ends of the spans."""
-    gone, index, last = arc_length(run), np.arange(len(run)), len(run) - 1
-    before = np.maximum.accumulate(np.where(planes.active, index, -1))
-    after = np.minimum.accumulate(np.where(planes.active, index, last + 1)[::-1])[::-1]
-    moved, total = np.zeros_like(run), np.zeros(len(run))
-    for end, exists in ((np.maximum(before, 0), before >= 0), (np.minimum(after, last), after <= last)):
-        part = np.abs(gone - gone[end]) / np.maximum(FADE_LENGTH, excess[end])
-        share = np.where(exists, fading(np.minimum(part, 1.0)), 0.0)
-        moved += (share * excess[end])[:, None] * planes.normals[end]
-        total += share
-    return moved / np.maximum(total, 1.0)[:, None]

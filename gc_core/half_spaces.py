@@ -99,16 +99,18 @@ def _shortest(behind: FloatArray, normals: FloatArray) -> tuple[FloatArray, Floa
     """Shortest steps (P, 3) onto up to three planes that obey all, and their cost (P,)."""
     steps, cost = _onto_one(behind, normals)
     rest = np.flatnonzero(cost >= _NONE)
-    some_behind, some_normals = behind[rest], normals[rest]
-    best, best_cost = steps[rest], cost[rest]
     for size in range(2, min(CORNERS, normals.shape[1]) + 1):
         for chosen in combinations(range(normals.shape[1]), size):
-            planes = some_normals[:, chosen, :]
-            tried = (np.linalg.pinv(planes) @ some_behind[:, chosen, None])[..., 0]
-            tried_cost = _cost(tried, some_behind, some_normals)
-            better = tried_cost < best_cost
-            best[better], best_cost[better] = tried[better], tried_cost[better]
-    steps[rest], cost[rest] = best, best_cost
+            if not rest.size:
+                break
+            inverse = np.linalg.pinv(normals[rest[:, None], chosen])
+            tried = np.einsum("pic,pc->pi", inverse, behind[rest[:, None], chosen])
+            tried_cost = _cost(tried, behind[rest], normals[rest])
+            better = tried_cost < cost[rest]
+            steps[rest[better]], cost[rest[better]] = tried[better], tried_cost[better]
+            # Where all planes are obeyed, and each of the chosen ones pushes, no step is shorter.
+            pushes = np.einsum("pic,pi->pc", inverse, tried)
+            rest = rest[(tried_cost >= _NONE) | (pushes < 0.0).any(axis=1)]
     return steps, cost
 
 

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
-
 import numpy as np
 import pytest
 
 from app import edits, placing
 from app.desk import Desk
-from app.ruling import FoldedRuleError
 from app.store import DEEPEST
 from tests.app.makers import Mouse, desk_of
 
@@ -85,9 +82,7 @@ def check_whatever_is_done(seed: int, count: int) -> None:
     mouse = Mouse(desk)
     first = desk.store.document
     for _ in range(count):
-        # Where landmarks fold space a rule cannot be kept; the session says so, and nothing has changed.
-        with suppress(FoldedRuleError):
-            do_anything(desk, mouse, rng)
+        do_anything(desk, mouse, rng)
         state = desk.state()
         assert np.isfinite(state.hand.position).all()
         assert state.model.problem is None

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app import linepull
+from app import edits, linepull
 from app.arm.protocol import JointPath
 from app.desk import Desk
 from app.document import FloatArray
@@ -15,7 +15,7 @@ from app.linepull import LinePull
 from app.model import learn
 from app.proposal import FIRST_ANSWER
 from gc_core import same_content
-from tests.app.makers import Mouse, demonstration, place_of, taught
+from tests.app.makers import Mouse, demonstration, desk_of, place_of, taught
 
 LINES = ("/demonstrations/1", "/reproductions/0")
 BY = np.array([0.0, 0.0, -0.05])
@@ -135,6 +135,31 @@ def test_a_pulled_run_that_is_taught_joins_as_it_was_pulled(desk: Desk, mouse: M
     assert np.linalg.norm(made.positions - run.positions, axis=1).max() == pytest.approx(0.05, abs=1e-9)
     np.testing.assert_array_equal(made.times, run.times)
     assert desk.store.document.rules == ()
+
+
+def test_where_landmarks_fold_space_a_pulled_run_can_be_taught_and_still_asks(mouse: Mouse) -> None:
+    folded = edits.move_landmark(taught(), "goal", learn(taught()).cylinder.directrix[0] + 1e-4)
+    mouse.desk = desk = desk_of(folded)
+    mouse.pull("/reproductions/0", np.array([0.3, 0.3, 0.0]), kept=False)
+    said = desk.state()
+    mouse.pull("/landmarks/goal", BY, kept=False)
+
+    assert said.warning
+    assert said.message.startswith("The landmarks are moved so far that space folds")
+    assert [choice.label for choice in said.proposal.choices] == ["Teach it"]
+    assert desk.store.document is folded
+
+
+def test_a_step_back_is_taken_even_where_what_is_held_cannot_be_kept(mouse: Mouse) -> None:
+    folded = edits.move_landmark(taught(), "goal", learn(taught()).cylinder.directrix[0] + 1e-4)
+    mouse.desk = desk = desk_of(taught())
+    desk.edit(lambda _: folded, "move the goal", now=mouse.now)
+    mouse.press("/reproductions/0")
+    mouse.move([0.3, 0.3, 0.0])
+    desk.undo(mouse.now)  # the correction, which cannot be a rule
+    desk.undo(mouse.now)
+
+    assert desk.store.undo_name is None
 
 
 def test_whoever_goes_on_accepts_what_there_is_only_one_thing_to_do_with(desk: Desk, mouse: Mouse) -> None:

@@ -155,11 +155,17 @@ def test_a_rule_that_is_carried_and_taken_back_is_as_it_was() -> None:
     np.testing.assert_allclose(back.lengths, WALL.lengths, atol=1e-3)
 
 
-def test_a_rule_of_an_unchanged_path_does_nothing() -> None:
+@few
+@given(seed=seeds, start=st.tuples(st.floats(-0.09, 0.09), st.floats(-0.09, 0.09)))
+def test_a_rule_of_an_unchanged_path_does_nothing(seed: int, start: tuple[float, float]) -> None:
     idle = Constraint.from_correction(UPPER, UPPER.positions)
+    curved = encode(bundle(seed))
+    lazy = Constraint.from_correction(curved.directrix, curved.directrix)
+    run = reproduce(TUBE, (0.0, *start))
 
-    assert constrain(UPPER, [idle]) is UPPER
-    assert same_content(constrain(UPPER, [idle, LID]), constrain(UPPER, [LID]))
+    assert constrain(run, [idle]) is run
+    assert constrain(run, [lazy, idle]) is run
+    assert same_content(constrain(run, [idle, LID, lazy]), constrain(run, [LID]))
 
 
 @pytest.mark.parametrize("rules", [[LID], [WALL], [LID, WALL]])
@@ -177,6 +183,25 @@ def test_no_rule_lets_a_run_leap(rules: list[Constraint], height: float) -> None
     steps = [np.linalg.norm(np.diff(r.positions, axis=0), axis=1) for r in (run, constrain(run, rules))]
 
     assert steps[1].max() <= 3.0 * steps[0].max()
+
+
+@few
+@given(
+    angle=st.floats(95.0, 145.0), begin=st.floats(0.15, 0.6), height=st.floats(-0.05, 0.09), off=st.booleans()
+)
+def test_rules_that_pull_against_each_other_are_obeyed_without_a_leap(
+    angle: float, begin: float, height: float, off: bool
+) -> None:
+    turn = np.deg2rad(angle)
+    by = 0.05 * np.array([0.0, np.sin(turn), -np.cos(turn)])
+    against = pushed(LOWER if off else UPPER, tuple(by), begin=begin, end=begin + 0.35)
+    run = reproduce(TUBE, (0.0, 0.0, height))
+    ruled = constrain(run, [LID, against])
+
+    assert max(behind(ruled, LID).max(), behind(ruled, against).max()) <= 1e-9
+    steps = [np.linalg.norm(np.diff(one.positions, axis=0), axis=1).max() for one in (run, ruled)]
+    assert steps[1] <= 3.0 * steps[0]
+    np.testing.assert_allclose(constrain(run, [against, LID]).positions, ruled.positions, atol=1e-9)
 
 
 def test_two_rules_together_are_both_obeyed() -> None:

@@ -47,10 +47,14 @@ def learned(shown: list[Demonstration] | tuple[Demonstration, ...], section: str
     return encode(shown, section=section, align_by="arc_length")
 
 
-def beside(cylinder: GeneralizedCylinder, ratio: float) -> Reproduction:
-    """A run from a ratio, level with the middle line."""
-    level = int(np.argmax(np.abs(cylinder.surface()[0] - cylinder.directrix[0]) @ [1.0, 1.0, -9.0]))
-    centre, rim = cylinder.directrix[0], cylinder.surface()[0, level]
+def level(cylinder: GeneralizedCylinder) -> int:
+    """The corner of the first section that is level with the middle line."""
+    return int(np.argmax(np.abs(cylinder.surface()[0] - cylinder.directrix[0]) @ [1.0, 1.0, -9.0]))
+
+
+def towards(cylinder: GeneralizedCylinder, corner: int, ratio: float) -> Reproduction:
+    """A run from a ratio, in the direction of a corner of the sections."""
+    centre, rim = cylinder.directrix[0], cylinder.surface()[0, corner]
     return reproduce(cylinder, centre + ratio * (rim - centre))
 
 
@@ -80,17 +84,37 @@ def test_the_middle_line_dips_by_the_demonstrations_share(section: str, index: i
 
 
 @pytest.mark.parametrize("section", KINDS)
-@pytest.mark.parametrize("ratio", [0.0, 0.5])
-def test_a_new_run_from_the_same_ratio_dips_by_the_demonstrations_share(section: str, ratio: float) -> None:
-    before, after = beside(learned(SHOWN, section), ratio), beside(learned(corrected(0), section), ratio)
+@pytest.mark.parametrize("ratio", [0.0, 0.25, 0.5])
+@pytest.mark.parametrize("side", [0.0, 0.5])
+def test_a_run_beside_the_middle_line_dips_by_the_demonstrations_share(
+    section: str, ratio: float, side: float
+) -> None:
+    before, after = learned(SHOWN, section), learned(corrected(0), section)
+    corner = (level(before) + round(side * len(before.angles))) % len(before.angles)
+    runs = [towards(one, corner, ratio).positions for one in (before, after)]
 
     share = DIP.law["pull_m"] / len(SHOWN)
-    assert depth(before.positions, after.positions) == pytest.approx(share, rel=DIP.law["of_the_mean"])
+    assert depth(*runs) == pytest.approx(share, rel=DIP.law["of_the_mean"])
+
+
+@pytest.mark.parametrize("section", KINDS)
+@pytest.mark.parametrize("ratio", [0.25, 0.5, 0.9])
+def test_a_run_follows_the_boundary_by_its_ratio_and_the_mean_by_the_rest(section: str, ratio: float) -> None:
+    # Above and below the middle line the section changes its shape with the corrected demonstration, which
+    # lies on its rim, and so a run of the same ratio dips by less or by more than the mean.
+    before, after = learned(SHOWN, section), learned(corrected(0), section)
+    mean, rim = after.directrix - before.directrix, after.surface() - before.surface()
+    for corner in range(0, len(before.angles), len(before.angles) // 8):
+        runs = [towards(one, corner, ratio) for one in (before, after)]
+        moved = runs[1].positions - runs[0].positions
+        np.testing.assert_allclose(moved, (1.0 - ratio) * mean + ratio * rim[:, corner], atol=1e-9)
+        np.testing.assert_allclose(runs[1].ratios, runs[0].ratios, atol=1e-9)
+        assert 0.0 < depth(runs[0].positions, runs[1].positions) < DIP.law["pull_m"]
 
 
 def test_a_corrected_run_that_joins_the_set_is_learned_from() -> None:
     cylinder = learned(SHOWN, "circle")
-    run = beside(cylinder, 0.0)
+    run = towards(cylinder, 0, 0.0)
     dipped = soft_correction(run.positions, 100, DIP.law["pull_m"] * DOWN, DIP.law["width_m"])
     extra = Demonstration(run.times, dipped, name="Corrected run")
 
