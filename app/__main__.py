@@ -14,6 +14,7 @@ from tyro.extras import SubcommandApp
 from app import commands
 from app.check import check
 from app.compare import compare
+from app.figures.command import figure
 from gc_core import GcError
 
 DESCRIPTION: Final = "Teach a robot arm a motion in the browser; `gc-teach` alone serves the app."
@@ -61,6 +62,7 @@ cli.command(commands.encode)
 cli.command(commands.reproduce)
 cli.command(check)
 cli.command(compare)
+cli.command(figure)
 
 
 def main(args: Sequence[str] | None = None) -> None:

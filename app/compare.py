@@ -13,9 +13,7 @@ from app.commands import AlignBy, Section, Units
 from app.comparison import Comparison, Row, Task, claims
 from app.comparison import compare as run_comparison
 from app.document import Settings
-from app.files import inspect
-from app.resources import static_folder
-from app.skills import load_skill
+from app.opening import opened
 
 _DEFAULT = Settings()
 
@@ -51,14 +49,9 @@ def _answer(task: Task, names: tuple[str, ...], starts: int, *, json: bool) -> s
 
 def _task(file: Path, section: Section | None, align_by: AlignBy, units: Units) -> Task:
     """Open a recording, or a built-in skill with the things in its way."""
-    skills = static_folder() / "skills"
-    if not file.suffix and not file.exists():
-        document = load_skill(skills, str(file))
-        shown = tuple(each.demonstration for each in document.demonstrations if not each.muted)
-        return Task(shown, Tube(section or document.settings.section, align_by), document.things)
-    reading = inspect(file)
-    shown = reading.accepted(reading.unit if units == "auto" else units, "as recorded")
-    return Task(tuple(shown), Tube(section or _DEFAULT.section, align_by))
+    document = opened(file, None if units == "auto" else units)
+    shown = tuple(each.demonstration for each in document.demonstrations if not each.muted)
+    return Task(shown, Tube(section or document.settings.section, align_by), document.things)
 
 
 def _words(found: Comparison) -> list[str]:

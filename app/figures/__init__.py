@@ -9,8 +9,12 @@ from threading import Lock
 from typing import TYPE_CHECKING, Any, Final
 
 from app.arm.shapes import Shape
-from app.document import FloatArray
-from app.figures.errors import FigureError, NoMatplotlibError
+from app.document import Document, FloatArray
+from app.figures.catalogue import FIGURES
+from app.figures.errors import FigureError, NoMatplotlibError, NoSuchFigureError, NothingToDrawError
+from app.figures.subject import Subject
+from app.resources import static_folder
+from app.skills import load_skill
 from gc_core import GeneralizedCylinder
 
 if TYPE_CHECKING:
@@ -19,7 +23,54 @@ if TYPE_CHECKING:
 _ONE_AT_A_TIME: Final = Lock()
 """Matplotlib's style belongs to the process, and skills are exported by several threads."""
 
-__all__ = ("FigureError", "NoMatplotlibError", "skill_figure")
+__all__ = (
+    "FIGURES",
+    "FigureError",
+    "NoMatplotlibError",
+    "NoSuchFigureError",
+    "NothingToDrawError",
+    "paper_figure",
+    "skill_figure",
+)
+
+
+def paper_figure(
+    name: str, document: Document | None = None, forms: Sequence[Form] = ("svg", "png")
+) -> dict[Form, bytes]:
+    """Make a figure of the paper.
+
+    Parameters
+    ----------
+    name : str
+        One of `FIGURES`.
+    document : Document, optional
+        The skill that it is made of; the built-in ones of the figure unless given.
+    forms : sequence of "svg", "png"
+        Kinds of file.
+
+    Returns
+    -------
+    dict
+        The bytes of each kind; the same for the same skill.
+
+    Raises
+    ------
+    FigureError
+        If there is no such figure, nothing was shown, or the library that draws is not installed.
+    GcError
+        If the skill cannot be learned.
+    """
+    if name not in FIGURES:
+        raise NoSuchFigureError(name, tuple(FIGURES))
+    entry = FIGURES[name]
+    with _drawing() as sheet:
+        if document is None:
+            documents = [load_skill(static_folder() / "skills", skill) for skill in entry.skills]
+        else:
+            documents = [document]
+        draw = getattr(import_module(f"app.figures.{entry.module}"), entry.function)
+        figure = draw(tuple(map(Subject, documents)))
+        return {form: sheet.saved(figure, form) for form in forms}
 
 
 def skill_figure(

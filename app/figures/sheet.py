@@ -7,6 +7,7 @@ Figures know nothing of windows: `sheet` makes one, `saved` turns it into the by
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
@@ -22,14 +23,13 @@ from matplotlib.ticker import MaxNLocator
 
 from app.arm.shapes import Shape, pose_of
 from app.document import FloatArray
-from app.tube_svg import projection_of
 from gc_core import GeneralizedCylinder
 
 Form: TypeAlias = Literal["svg", "png"]
 
 DEMONSTRATION, DIRECTRIX, TUBE, REPRODUCTION, GOAL = "#C4161C", "#1F3FA8", "#8E96A6", "#E04BDC", "#F2BA1A"
 REFINED = "#1A9E73"
-INK, PALE, THING = "#3A3F49", "#DDE1E6", "#8A7C6B"
+INK, PALE = "#3A3F49", "#DDE1E6"
 SKIN: Final = ("#BFC6D1", "#F3F5F8")
 """Of a tube, where it is darkest and where it is brightest."""
 BODY: Final = ("#8F8170", "#DCD4C8")
@@ -41,8 +41,10 @@ OUTLINES: Final = 24
 RINGS: Final = 120
 SIDES: Final = 48
 """Of the skin."""
-DOTS_PER_INCH: Final = 300
-"""Of a PNG, and of the skins in an SVG, which are pictures there; all else is lines and letters."""
+DOTS_PER_INCH: Final = {"png": 300.0, "svg": 200.0}
+"""Of an SVG: of the skins, which are pictures there; all else is lines and letters."""
+SHORT: Final = 0.3
+"""Axes that point at the eye more than this leaves of their length are not shown [-]."""
 
 STYLE: Final[dict[str, Any]] = {
     "axes.edgecolor": INK,
@@ -81,6 +83,10 @@ class Space:
         """Draw a line through places (K, 3) or a single place (3,) [m], as matplotlib's ``plot`` does."""
         self.axes.plot(*np.atleast_2d(self.on_paper(points)).T, *marks, **look)
 
+    def title(self, words: str) -> None:
+        """Write above."""
+        self.axes.set_title(words)
+
     def text(self, place: FloatArray, words: str, **look: Any) -> None:
         """Write beside a place (3,) [m]."""
         self.axes.annotate(words, self.on_paper(place), textcoords="offset points", **look)
@@ -93,20 +99,9 @@ def styled() -> AbstractContextManager[None]:
 
 def sheet(width: float, height: float) -> Any:
     """Empty figure [inches] whose parts keep out of each other's way."""
-    return Figure(figsize=(width, height), layout="constrained")
-
-
-def seen_across(cylinder: GeneralizedCylinder) -> FloatArray:
-    """Find a view (3, 3) across a motion and a little from above, as in the drawings of the app."""
-    return projection_of([cylinder]).axes
-
-
-def seen_from(azimuth: float, elevation: float) -> FloatArray:
-    """View (3, 3) from an angle about z, counted from x, and an angle above level [degrees]."""
-    turn, up = np.deg2rad([azimuth, elevation])
-    towards = np.array([np.cos(up) * np.cos(turn), np.cos(up) * np.sin(turn), np.sin(up)])
-    right = np.array([-np.sin(turn), np.cos(turn), 0.0])
-    return np.stack([right, np.cross(towards, right), towards])
+    figure = Figure(figsize=(width, height), layout="constrained")
+    cast("Any", figure.get_layout_engine()).set(h_pad=0.07)
+    return figure
 
 
 def space(figure: Any, place: Any, view: FloatArray, room: Iterable[FloatArray] = ()) -> Space:
@@ -119,7 +114,7 @@ def space(figure: Any, place: Any, view: FloatArray, room: Iterable[FloatArray] 
     place : SubplotSpec
         One or more cells of the figure's grid.
     view : (3, 3) array
-        See `seen_across` and `seen_from` [-].
+        See `app.figures.views` [-].
     room : arrays (..., 3), optional
         What must have room, so that several panels have one scale; otherwise all that is drawn [m].
     """
@@ -141,7 +136,7 @@ def tube(where: Space, cylinder: GeneralizedCylinder, *, things: Sequence[Shape]
     rings = closed(cylinder.surface())
     bare = rings[_some(len(rings), RINGS)][:, _some(rings.shape[1], SIDES + 1)]
     quads = np.stack([bare[:-1, :-1], bare[:-1, 1:], bare[1:, 1:], bare[1:, :-1]], axis=2).reshape(-1, 4, 3)
-    _paint(where, [(quads, SKIN), *((body, BODY) for body in map(_triangles, things))])
+    _paint(where, [(quads, SKIN), *((body, BODY) for body in map(faces_of, things))])
     for ring in rings[_some(len(rings), OUTLINES)]:
         where.plot(ring, color=TUBE, linewidth=0.35, alpha=0.8, zorder=1)
     where.plot(cylinder.directrix, color=DIRECTRIX, linewidth=2.0, label="directrix", zorder=2.2)
@@ -150,7 +145,7 @@ def tube(where: Space, cylinder: GeneralizedCylinder, *, things: Sequence[Shape]
 def bodies(where: Space, things: Sequence[Shape]) -> None:
     """Draw things where no tube is."""
     if things:
-        _paint(where, [(_triangles(thing), BODY) for thing in things])
+        _paint(where, [(faces_of(thing), BODY) for thing in things])
 
 
 def former(where: Space, cylinder: GeneralizedCylinder) -> None:
@@ -166,8 +161,8 @@ def landmarks(where: Space, before: FloatArray, after: FloatArray) -> None:
     """Draw landmarks (L, 3) where they stand, and hollow, with a line from there, where they stood."""
     for old, new in zip(before, after, strict=True):
         where.plot(np.stack((old, new)), color=GOAL, linewidth=1.0)
-    where.plot(before, "o", markerfacecolor="white", markeredgecolor=GOAL, markersize=5, zorder=3)
-    where.plot(after, "o", color=GOAL, markersize=7, label="landmarks", zorder=3)
+    where.plot(before, "o", markerfacecolor="white", markeredgecolor=GOAL, markersize=4, zorder=3)
+    where.plot(after, "o", color=GOAL, markersize=5, label="landmarks", zorder=3)
 
 
 def lines(where: Any, paths: Iterable[FloatArray], label: str, **look: Any) -> None:
@@ -185,6 +180,8 @@ def arrows(where: Space, places: FloatArray, moves: FloatArray, **look: Any) -> 
     seen = np.linalg.norm(moves, axis=1) > 0.004
     start, step = where.on_paper(places[seen]), where.on_paper(moves[seen])
     shape = {"color": REFINED, "width": 0.003, "headwidth": 4.0, "headlength": 5.0, "zorder": 2.4} | look
+    where.axes.update_datalim(start + step)
+    where.axes.autoscale_view()
     where.axes.quiver(*start.T, *step.T, angles="xy", scale_units="xy", scale=1.0, **shape)
 
 
@@ -203,13 +200,22 @@ def scale_bar(where: Space, length: float, *, triad: bool = True) -> None:
     if triad:
         origin = np.array([left + 0.09 * span, below - 0.05 * span])
         for name, axis in zip("xyz", where.basis[:2].T, strict=True):
+            if np.linalg.norm(axis) < SHORT:
+                continue
             tip = origin + 0.07 * span * axis
             where.axes.plot(*np.stack([origin, tip]).T, linewidth=0.9, **ink)
             at = origin + 1.3 * (tip - origin)
             where.axes.annotate(name, at, fontsize=7, ha="center", va="center", **beside)
 
 
-def slice_of(axes: Any, cylinder: GeneralizedCylinder, station: int, *, legend: bool = True) -> None:
+def bar_for(cylinder: GeneralizedCylinder) -> float:
+    """Choose a scale bar that suits a tube: about a quarter of it, 1, 2 or 5 of some unit [m]."""
+    wanted = 0.3 * float(cylinder.arc_length[-1])
+    unit = 10.0 ** math.floor(math.log10(wanted))
+    return max(part * unit for part in (1.0, 2.0, 5.0) if part * unit <= wanted)
+
+
+def slice_of(axes: Any, cylinder: GeneralizedCylinder, station: int) -> None:
     """Draw one section in its plane [cm]: the boundary, the demonstrations' crossings, the centre."""
     angles, radii = cylinder.angles, 100.0 * cylinder.radii[station]
     boundary = np.stack((radii * np.cos(angles), radii * np.sin(angles)))
@@ -220,9 +226,7 @@ def slice_of(axes: Any, cylinder: GeneralizedCylinder, station: int, *, legend: 
     axes.plot(0, 0, "o", color=DIRECTRIX, markersize=5, label="directrix")
     axes.set(aspect="equal", xlabel="N [cm]", ylabel="B [cm]")
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(MaxNLocator(5, integer=True))
-    if legend:
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.28), fontsize=8)
+        axis.set_major_locator(MaxNLocator(4, integer=True))
 
 
 def legend(figure: Any, columns: int = 6) -> None:
@@ -234,13 +238,18 @@ def legend(figure: Any, columns: int = 6) -> None:
     figure.legend(list(named.values()), list(named), loc="outside lower center", ncols=columns)
 
 
-def saved(figure: Any, form: Form, dots_per_inch: float = DOTS_PER_INCH) -> bytes:
+def saved(figure: Any, form: Form, dots_per_inch: float | None = None) -> bytes:
     """Make a file of a figure: the same bytes whenever it is the same."""
     file = BytesIO()
     metadata = {"Date": None} if form == "svg" else {"Software": None}
     with styled():
         figure.savefig(
-            file, format=form, dpi=dots_per_inch, bbox_inches="tight", pad_inches=0.05, metadata=metadata
+            file,
+            format=form,
+            dpi=dots_per_inch or DOTS_PER_INCH[form],
+            bbox_inches="tight",
+            pad_inches=0.05,
+            metadata=metadata,
         )
     return file.getvalue()
 
@@ -255,7 +264,7 @@ def _some(count: int, most: int) -> Any:
     return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(np.intp))
 
 
-def _triangles(thing: Shape) -> FloatArray:
+def faces_of(thing: Shape) -> FloatArray:
     """(F, 3, 3) corners of a thing's faces where it stands [m]."""
     from app.scene.things import body  # noqa: PLC0415 - a second that only things need
 
@@ -274,7 +283,7 @@ def _paint(where: Space, skins: Sequence[tuple[FloatArray, tuple[str, str]]]) ->
         [paper[i] for i in order],
         facecolors=shades[order],
         edgecolors=shades[order],
-        linewidths=0.25,
+        linewidths=0.35,
         zorder=0,
         rasterized=True,
     )

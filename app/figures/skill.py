@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -12,14 +11,15 @@ from app.figures.sheet import (
     DEMONSTRATION,
     REPRODUCTION,
     Space,
+    bar_for,
     legend,
     lines,
     scale_bar,
-    seen_across,
     sheet,
     space,
     tube,
 )
+from app.figures.views import seen_flat
 from gc_core import GeneralizedCylinder
 
 
@@ -32,9 +32,9 @@ def draw(
 ) -> Any:
     """Make the figure of `app.figures.skill_figure`."""
     figure = sheet(5.4, 3.9)
-    where = space(figure, figure.add_gridspec(1, 1)[0], seen_across(cylinder))
+    where = space(figure, figure.add_gridspec(1, 1)[0], seen_flat(cylinder))
     portrait(where, cylinder, demonstrations, runs, things)
-    where.axes.set_title(title)
+    where.title(title)
     scale_bar(where, bar_for(cylinder))
     legend(figure)
     return figure
@@ -53,10 +53,3 @@ def portrait(
     lines(where, runs, "reproductions", color=REPRODUCTION, linewidth=1.5, zorder=2.3)
     for run in runs:
         where.plot(run[0], "o", color=REPRODUCTION, markersize=3.5, zorder=2.4)
-
-
-def bar_for(cylinder: GeneralizedCylinder) -> float:
-    """Choose a scale bar that suits a tube: about a quarter of it, 1, 2 or 5 of some unit [m]."""
-    wanted = 0.3 * float(cylinder.arc_length[-1])
-    unit = 10.0 ** math.floor(math.log10(wanted))
-    return max(part * unit for part in (1.0, 2.0, 5.0) if part * unit <= wanted)

@@ -24,14 +24,15 @@ print(*cylinder.diagnostics.sentences(), sep="\n")
 middle = 60
 sheet = fig.sheet(7.2, 3.9)
 grid = sheet.add_gridspec(1, 2, width_ratios=(2.2, 1), wspace=0.12)
-axes = fig.space(sheet, grid[0], cylinder, zoom=1.1)
+axes = fig.space(sheet, grid[0], fig.seen_flat(cylinder))
 fig.tube(axes, cylinder)
 fig.lines(axes, shown, "demonstrations", color=fig.DEMONSTRATION, linewidth=0.9)
 section = cylinder.surface()[middle]
 fig.lines(axes, [section[[*range(len(section)), 0]]], "section on the right", color=fig.INK, linewidth=1.1)
-axes.legend(loc="upper left")
+fig.scale_bar(axes, 0.2)
 
 section_axes = sheet.add_subplot(grid[1])
 fig.slice_of(section_axes, cylinder, middle)
 section_axes.set_title(f"Section at {100 * cylinder.arc_length[middle]:.0f} cm")
+fig.legend(sheet)
 figure = fig.save(sheet, "01_encode")

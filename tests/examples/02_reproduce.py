@@ -30,13 +30,14 @@ for name, runs in (("fixed", fixed), ("convergent", convergent)):
 
 sheet = fig.sheet(7.2, 3.9)
 grid = sheet.add_gridspec(1, 2, width_ratios=(2.2, 1), wspace=0.12)
-axes = fig.space(sheet, grid[0], cylinder, zoom=1.1)
+axes = fig.space(sheet, grid[0], fig.seen_flat(cylinder))
 fig.tube(axes, cylinder)
 shown = [demonstration.positions for demonstration in demonstrations]
 fig.lines(axes, shown, "demonstrations", color=fig.DEMONSTRATION, linewidth=0.6, alpha=0.6)
 fig.lines(axes, list(fixed.positions), "reproductions, fixed law", color=fig.REPRODUCTION, linewidth=1.6)
-axes.plot(*starts.T, "o", color=fig.REPRODUCTION, markersize=5, label="new starts")
-axes.legend(loc="upper left")
+axes.plot(starts, "o", color=fig.REPRODUCTION, markersize=5, label="new starts")
+fig.scale_bar(axes, 0.2)
+fig.legend(sheet)
 
 away = sheet.add_subplot(grid[1])
 for runs, style, name in ((fixed, "-", "fixed"), (convergent, "--", "convergent")):

@@ -41,15 +41,16 @@ print(f"The hand sinks from {below[0]:.1f} to {below[-1]:.1f} degrees below leve
 
 sheet = fig.sheet(7.2, 3.9)
 grid = sheet.add_gridspec(1, 2, width_ratios=(2.2, 1), wspace=0.12)
-axes = fig.space(sheet, grid[0], cylinder, zoom=1.1)
+axes = fig.space(sheet, grid[0], fig.seen_flat(cylinder))
 fig.tube(axes, cylinder)
-axes.plot(*run.positions.T, color=fig.REPRODUCTION, linewidth=2.0, label="reproduction")
+axes.plot(run.positions, color=fig.REPRODUCTION, linewidth=2.0, label="reproduction")
 some = np.linspace(0, len(run.positions) - 1, 13).astype(int)
 tips = run.positions[some] + 0.09 * pointing(run.orientations[some])
 hands = list(np.stack((run.positions[some], tips), axis=1))
 fig.lines(axes, hands, "where the hand points", color=fig.INK, linewidth=1.6)
-axes.plot(*tips.T, "o", color=fig.INK, markersize=2.5)
-axes.legend(loc="upper left")
+axes.plot(tips, "o", color=fig.INK, markersize=2.5)
+fig.scale_bar(axes, 0.2)
+fig.legend(sheet)
 
 angles = sheet.add_subplot(grid[1], box_aspect=1.1, xlabel="time [s]", ylabel="hand below level [°]")
 shown = [(d.times, np.rad2deg(np.arcsin(-pointing(d.orientations)[:, 2]))) for d in demonstrations]

@@ -29,15 +29,16 @@ for policy, run in runs.items():
 
 sheet = fig.sheet(7.2, 3.9)
 grid = sheet.add_gridspec(1, 2, width_ratios=(2.2, 1), wspace=0.12)
-axes = fig.space(sheet, grid[0], cylinder, zoom=1.1)
+axes = fig.space(sheet, grid[0], fig.seen_flat(cylinder))
 fig.tube(axes, cylinder)
 ratios = sheet.add_subplot(grid[1], box_aspect=1.1)
 for (policy, words), dashes in zip(policies.items(), ("-", "--", ":"), strict=True):
     look = {"color": fig.REPRODUCTION, "linewidth": 1.8, "linestyle": dashes, "label": words}
-    axes.plot(*runs[policy].positions.T, **look)
+    axes.plot(runs[policy].positions, **look)
     ratios.plot(100 * cylinder.arc_length[-len(runs[policy].ratios) :], runs[policy].ratios, **look)
-axes.plot(*start, "o", color=fig.REPRODUCTION, markersize=6, label="start")
-axes.legend(loc="upper left")
+axes.plot(start, "o", color=fig.REPRODUCTION, markersize=6, label="start")
+fig.scale_bar(axes, 0.2)
+fig.legend(sheet)
 ratios.axhline(1, color=fig.TUBE, linewidth=1.2)
 ratios.annotate("boundary", (100, 1), xytext=(0, 3), textcoords="offset points", ha="right", color=fig.INK)
 ratios.set(xlabel="length of the directrix [cm]", ylabel="ratio η", ylim=0)

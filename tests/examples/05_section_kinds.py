@@ -24,17 +24,16 @@ middle, widest = 60, cylinders["circle"]
 reach = 118 * widest.radii[middle].max()
 for place, (kind, cylinder) in enumerate(cylinders.items()):
     row, column = divmod(place, 2)
-    axes = fig.space(sheet, grid[row, 2 * column], widest, zoom=1.2)
+    axes = fig.space(sheet, grid[row, 2 * column], fig.seen_flat(widest), [widest.surface()])
     fig.tube(axes, cylinder)
     fig.lines(axes, shown, "demonstrations", color=fig.DEMONSTRATION, linewidth=0.7)
     section = cylinder.surface()[middle]
     fig.lines(axes, [section[[*range(128), 0]]], "section beside it", color=fig.INK, linewidth=1.0)
-    axes.set_title(f"{kinds[kind]}: {1000 * cylinder.volume:.1f} dm³", fontsize=10, y=0.95)
-    axes.set_axis_off()
+    axes.title(f"{kinds[kind]}: {1000 * cylinder.volume:.1f} dm³")
     fig.scale_bar(axes, 0.2)
 
     section = sheet.add_subplot(grid[row, 2 * column + 1])
-    fig.slice_of(section, cylinder, middle, legend=False)
+    fig.slice_of(section, cylinder, middle)
     section.set(xlim=(-reach, reach), ylim=(-reach, reach))
-sheet.legend(*sheet.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+fig.legend(sheet)
 figure = fig.save(sheet, "05_section_kinds")

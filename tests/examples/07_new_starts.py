@@ -36,17 +36,16 @@ for after, tube, run in zip(placings, tubes, runs, strict=True):
 sheet = fig.sheet(8.6, 6.4)
 grid = sheet.add_gridspec(2, 2)
 for cell, (after, tube, run) in enumerate(zip(placings, tubes, runs, strict=True)):
-    axes = fig.space(sheet, grid[cell], taught, *tubes, zoom=1.28)
-    axes.view_init(elev=24, azim=68)
-    axes.set_axis_off()
-    axes.set_title(f"Start moved by {100 * np.linalg.norm(after[0] - before[0]):.0f} cm", y=0.97)
+    room = [each.surface() for each in (taught, *tubes)]
+    axes = fig.space(sheet, grid[cell], fig.seen_flat(taught), room)
+    axes.title(f"Start moved by {100 * np.linalg.norm(after[0] - before[0]):.0f} cm")
     fig.former(axes, taught)
     fig.tube(axes, tube)
     fig.lines(axes, list(run.positions), "reproductions", color=fig.REPRODUCTION, linewidth=1.0)
     closes, opens = np.flatnonzero(np.diff(run.gripper)) + 1
     for sample, mark, words in ((closes, "v", "hand closes"), (opens, "^", "hand opens")):
-        axes.plot(*run.positions[0, [sample]].T, mark, color=fig.INK, markersize=5, label=words, zorder=9)
+        axes.plot(run.positions[0, sample], mark, color=fig.INK, markersize=5, label=words, zorder=9)
     fig.landmarks(axes, before, after)
-fig.scale_bar(axes, 0.2, part=0.5)
-sheet.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=6)
+fig.scale_bar(axes, 0.2)
+fig.legend(sheet)
 figure = fig.save(sheet, "07_new_starts")

@@ -38,18 +38,16 @@ print("new runs sink by", *(f"{100 * fall:.1f} cm" for fall in (runs[0] - runs[1
 sheet = fig.sheet(7.2, 5.2)
 grid = sheet.add_gridspec(2, 1)
 for column, (tube, run) in enumerate(zip((before, after), runs, strict=True)):
-    axes = fig.space(sheet, grid[column], before, after, zoom=2.75)
-    axes.view_init(elev=14, azim=76)
-    axes.set_axis_off()
-    axes.set_title(("As shown", "Demonstration 1 corrected, learned again")[column], y=0.93)
+    room = [before.surface(), after.surface(), dipped]
+    axes = fig.space(sheet, grid[column], fig.seen_across(before), room)
+    axes.title(("As shown", "Demonstration 1 corrected, learned again")[column])
     fig.tube(axes, tube)
     shown = [shown.positions for shown in (demonstrations, corrected[1:])[column]]
     fig.lines(axes, shown, "demonstrations", color=fig.DEMONSTRATION, linewidth=0.9)
     fig.lines(axes, list(run[1:]), "reproduction", color=fig.REPRODUCTION, linewidth=1.6)
     if column:
-        axes.plot(*path.T, color=fig.INK, linewidth=0.9, linestyle="--", label="before its correction")
-        axes.plot(*dipped.T, color=fig.REFINED, linewidth=2.0, label="corrected")
-        fig.scale_bar(axes, 0.2, part=0.5)
-    fig.let_out(axes)
-sheet.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=5)
+        axes.plot(path, color=fig.INK, linewidth=0.9, linestyle="--", label="before its correction")
+        axes.plot(dipped, color=fig.REFINED, linewidth=2.0, label="corrected")
+        fig.scale_bar(axes, 0.2)
+fig.legend(sheet)
 figure = fig.save(sheet, "09_incremental_refinement")

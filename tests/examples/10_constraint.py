@@ -33,21 +33,18 @@ for run, ruled in zip(free, obeying, strict=True):
 
 sheet = fig.sheet(7.2, 5.2)
 grid = sheet.add_gridspec(2, 1)
-parts = [fig.space(sheet, grid[column], tube, zoom=2.75) for column in range(2)]
+parts = [fig.space(sheet, grid[column], fig.seen_across(tube)) for column in range(2)]
 titles = ("The refinement matrix V: what the teacher moved", "Later runs: above they obey, below they stay")
 for axes, title in zip(parts, titles, strict=True):
-    axes.view_init(elev=8, azim=80)
-    axes.set_axis_off()
-    axes.set_title(title, y=0.93)
+    axes.title(title)
     fig.former(axes, tube)
 fig.arrows(parts[0], upper.positions[::6], lid.moves[::6])
 before = [[upper.positions, lower.positions], [run.positions for run in free[:3]]]
 after = [[pressed], [run.positions for run in obeying[:3]]]
-fig.scale_bar(parts[1], 0.2, part=0.5)
+fig.scale_bar(parts[1], 0.2)
 for axes, old, new in zip(parts, before, after, strict=True):
     fig.lines(axes, old, "before", color=fig.INK, linewidth=0.9, linestyle="--")
     fig.lines(axes, new, "refined", color=fig.REFINED, linewidth=1.8)
-    axes.plot(*lower.positions.T, color=fig.REPRODUCTION, linewidth=1.6, label="lower run, untouched")
-    fig.let_out(axes)
-sheet.legend(*parts[1].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    axes.plot(lower.positions, color=fig.REPRODUCTION, linewidth=1.6, label="lower run, untouched")
+fig.legend(sheet)
 figure = fig.save(sheet, "10_constraint")

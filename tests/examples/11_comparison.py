@@ -33,19 +33,17 @@ for row in found.rows:
 sheet = fig.sheet(8.6, 5.6)
 grid = sheet.add_gridspec(2, 3)
 for cell, row in enumerate(found.rows):
-    axes = fig.space(sheet, grid[cell], found.cylinder, zoom=0.98)
-    axes.view_init(elev=34, azim=66)
-    axes.set_axis_off()
-    for thing in task.things:
-        fig.thing(axes, thing)
+    room = [found.cylinder.surface(), *shown, *map(fig.faces_of, task.things)]
+    axes = fig.space(sheet, grid[cell], fig.seen_flat(found.cylinder), room)
+    fig.bodies(axes, task.things)
     fig.lines(
         axes, [each.positions for each in demonstrations], "demonstrations", color=fig.DEMONSTRATION, lw=0.6
     )
     runs = [run.positions for run in found.runs.get(row.method, ())]
     fig.lines(axes, runs, "runs from five starts", color=fig.REPRODUCTION, lw=1.4)
-    axes.plot(*found.starts.T, "o", color=fig.INK, markersize=3, label="starts")
+    axes.plot(found.starts, "o", color=fig.INK, markersize=3, label="starts")
     left = "failed" if row.spread_mid_m is None else f"half way {100 * row.spread_mid_m:.1f} cm apart"
-    axes.set_title(f"{names[row.method]}\n{left}", y=0.94)
+    axes.title(f"{names[row.method]}\n{left}")
 fig.scale_bar(axes, 0.2)
-sheet.legend(*sheet.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+fig.legend(sheet)
 figure = fig.save(sheet, "11_comparison")
