@@ -14,7 +14,7 @@ from app.scene.pulls import bind_pull
 from app.scene.style import DEMONSTRATION, MUTED, PICK_RADIUS, THIN
 from app.store import State
 
-MOST_POINTS: Final = 600
+MOST_POINTS: Final = 150
 """Drawn of one demonstration, all of them points of it."""
 
 

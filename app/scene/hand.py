@@ -29,7 +29,7 @@ from app.store import Hand, State
 
 MOVING: Final = 1.5
 """While it plays the hand is harder to hit; its grip is that much wider."""
-MOST_POINTS: Final = 400
+MOST_POINTS: Final = 150
 """Of the recording so far; it is redrawn twenty times a second."""
 _BESIDE: Final = np.array([0.02, 0.0, 0.03])
 

@@ -19,7 +19,7 @@ from gc_core import GeneralizedCylinder
 
 OUTLINE: Final = (10, 24)
 """Rings of the outline, and corners of each."""
-MOST_POINTS: Final = 400
+MOST_POINTS: Final = 150
 """Of either line; the green one is redrawn at every tick."""
 
 

@@ -14,6 +14,10 @@ from app.scene.style import CELL, SECTION_OF_TABLE, TABLE, Color
 TABLE_SIZE: Final = 2.2
 """Side of the table [m]: the arm reaches about 1 m to every side."""
 TABLE_THICKNESS: Final = 0.025
+SKY: Final[Color] = (255, 255, 255)
+GROUND: Final[Color] = (196, 200, 210)
+AMBIENT: Final = 2.5
+"""How bright the light from all around is [-]."""
 
 
 def draw_world(api: viser.SceneApi, arm: Arm) -> None:
@@ -26,7 +30,7 @@ def draw_world(api: viser.SceneApi, arm: Arm) -> None:
     arm : Arm
         Whose links are drawn, as ``/arm/<link>/mesh``.
     """
-    api.configure_default_lights(True, cast_shadow=False)
+    _light(api)
     _draw_table(api)
     count: dict[str, int] = {}
     for mesh in arm.link_meshes:
@@ -39,6 +43,16 @@ def draw_world(api: viser.SceneApi, arm: Arm) -> None:
             cast_shadow=False,
             receive_shadow=False,
         )
+
+
+def _light(api: viser.SceneApi) -> None:
+    """Light from above and, weaker, from all around.
+
+    viser's environment map looks little different and makes a picture drawn in software take twice as long.
+    """
+    api.configure_default_lights(True, cast_shadow=False)
+    api.configure_environment_map(None)
+    api.add_light_hemisphere("/light", sky_color=SKY, ground_color=GROUND, intensity=AMBIENT)
 
 
 def readable(color: Color) -> Color:
