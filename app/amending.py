@@ -21,7 +21,10 @@ from gc_core import GcError
 
 CHOOSE: Final = "There is nothing to replay yet. Choose a demonstration or a run."
 PULL_IT: Final = "Pull the hand where the motion should be otherwise; let go, and it eases back."
-ONLY_THE_HAND: Final = "While it replays only the hand can be pulled. Press Stop to work on something else."
+ONLY_THE_HAND: Final = (
+    "Take the hand itself: nothing else can be pulled while it replays. Press Stop to work on something else."
+)
+GONE: Final = "This line is not there any more. Choose another one."
 SLIP: Final = 0.001
 """What is pulled by less than this was pulled by a slip of the hand, and stays as it is [m]."""
 FIRST: Final = "/demonstrations/0"
@@ -114,6 +117,7 @@ class Amending:
             return None
         corrected = replay.finish(now)
         self._stage.driver.pulled(replay.hand)
+        self._stage.rewind()
         if corrected is None:
             return correcting.NOTHING, False
         return self.offer(correcting.proposed(replay.subject, corrected))
@@ -153,6 +157,19 @@ class Amending:
         if pull is not None:
             self._aside, self._pending = self._pending, None
         return pull
+
+    def shift(self, node: str, share: float, by: FloatArray, model: Model, width: float) -> Said | None:
+        """Pull a line without a pointer: grab it after a part of the way, move it (3,) [m] and let it go.
+
+        See `grab`, `pulled` and `linepull.place_on`.
+        """
+        place = linepull.place_on(node, share, model, self.proposal)
+        pull = None if place is None else self.grab(Drag(node, "start", place, place, 0.0), model, width)
+        if pull is None:
+            return GONE, True
+        said = self.pulled(pull, by)
+        stopped = pull.stopped(by)
+        return said if said[1] or not stopped else (stopped, True)
 
     def pulled(self, pull: LinePull, by: FloatArray) -> Said:
         """Offer what became of a line, as far as it can be kept; a slip changes nothing."""

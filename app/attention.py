@@ -25,6 +25,19 @@ def urgent(hand: Hand, held: Grasp | None, model: Model, arm: Arm) -> tuple[str,
     return bending.following(model, which, arm) if kind in {"landmarks", "turns"} else None
 
 
+class Contradicting:
+    """Says once that rules contradict each other, when they begin to."""
+
+    def __init__(self) -> None:
+        self._known: frozenset[tuple[str, ...]] = frozenset()
+
+    def news(self, model: Model) -> str:
+        """Give the sentence about the first set of rules that did not contradict each other before."""
+        new = [one for one in model.contradictions if one.names not in self._known]
+        self._known = frozenset(one.names for one in model.contradictions)
+        return new[0].sentence() if new else ""
+
+
 def _cannot_follow(short: Shortfall) -> str:
     if not short.stuck:
         return f"The arm cannot follow: {short.reason}."
@@ -36,9 +49,8 @@ def _cannot_follow(short: Shortfall) -> str:
 
 def _pulled(pull: LinePull, held: Grasp, model: Model) -> tuple[str, bool]:
     """Say what pulling a line does to the runs, or why it goes no further."""
-    reach = pull.reached(held.track.displacement)
-    if reach.why:
-        return f"The arm cannot follow there: {reach.why}. The line stays where the arm can go.", True
+    if stopped := pull.stopped(held.track.displacement):
+        return stopped, True
     effect = effects.on_runs(pull.subject.among, model)
     said = f"{effect[0].upper()}{effect[1:]}. " if effect else ""
     return f"{said}The pull is {100.0 * pull.width:.0f} cm wide (Page up: wider, Page down: narrower).", False

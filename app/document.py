@@ -136,6 +136,10 @@ class View:
     """Rings about the hand turn the tool."""
     replay: str = "/demonstrations/0"
     """Scene name of what is replayed to be corrected."""
+    line: str = ""
+    """Scene name of the line that is corrected by buttons and numbers; empty: none."""
+    line_share: float = 0.5
+    """After which part of its length it is moved, 0 .. 1."""
     replay_speed: float = 0.5
     """Of that replay, as a multiple of the taught one: 0.25 .. 1."""
     replay_feel: Feel = "medium"

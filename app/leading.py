@@ -60,6 +60,19 @@ class Leading:
             pull = self._led(now)
             pull.go(now, edits.point(pull.target + by))
 
+    def move_line(self, node: str, share: float, by: FloatArray, now: float) -> None:
+        """Pull a line after a part of the way along it, by a displacement (3,) [m], and let it go."""
+        desk = self._desk
+        if not (np.isfinite([share, *by]).all() and np.linalg.norm(by) <= LARGEST_NUDGE):
+            return
+        desk.let_go(now)
+        if (asked := desk.amending.settle(node, now)) is not None:
+            desk.say(asked[0], warning=asked[1])
+            return
+        desk.learned()
+        width = desk.view.pull_width
+        desk.amend(lambda amending: amending.shift(node, share, by, desk.model, width))
+
     def record(self, now: float) -> None:
         """Begin a demonstration by buttons and numbers, or end the one that is being recorded."""
         pull = self._desk.pulled_hand

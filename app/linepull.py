@@ -101,6 +101,11 @@ class LinePull:
             low, high = (share, high) if inside else (low, share)
         return Reach(self.path + low * (pulled - self.path), low * float(np.linalg.norm(by)), why)
 
+    def stopped(self, by: FloatArray) -> str:
+        """Say what keeps the line from being pulled this far (3,) [m]; empty: nothing does."""
+        why = self.reached(by).why
+        return f"The arm cannot follow there: {why}. The line stays where the arm can go." if why else ""
+
     def correction(self, by: FloatArray) -> Correction:
         """Give the line as it was and as it is pulled."""
         return Correction(self.subject.path.positions, self.reached(by).positions, self.subject.among)
@@ -154,6 +159,37 @@ def take(
     nearest = int(np.argmin(np.linalg.norm(path - grabbed, axis=1)))
     shown = 0 if waiting is None else waiting.previewed
     return LinePull(subject, path, nearest, width, unreachable, shown)
+
+
+def place_on(node: str, share: float, model: Model, waiting: Proposal | None) -> FloatArray | None:
+    """Find the place after a part of the way along a line, where the line is now.
+
+    Parameters
+    ----------
+    node : str
+        Scene name of the line.
+    share : float
+        Part of the line's length before it was corrected, 0 .. 1: pulling it leaves the same sample there.
+    model : Model
+        What is shown.
+    waiting : Proposal, optional
+        A correction that waits for its answer.
+
+    Returns
+    -------
+    (3,) array or None
+        One of the line's samples [m]; None where there is no such line.
+    """
+    pulled = None if waiting is None else waiting.subject
+    if waiting is not None and pulled is not None and pulled.node == node:
+        return waiting.after[_sample(waiting.before, share)]
+    subject = subject_of(node, model)
+    return None if subject is None else subject.path.positions[_sample(subject.path.positions, share)]
+
+
+def _sample(path: FloatArray, share: float) -> int:
+    gone = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+    return int(np.argmin(np.abs(gone - np.clip(share, 0.0, 1.0) * gone[-1])))
 
 
 def unfollowable(arm: Arm, proposal: Proposal) -> str:

@@ -97,6 +97,10 @@ class Seat:
         """See `Actions.stop_replay`."""
         self._post(lambda desk, now: desk.amend(lambda a: a.end(now)))
 
+    def move_line(self, node: str, share: float, by: FloatArray) -> None:
+        """See `Actions.move_line`."""
+        self._post(lambda desk, now: desk.leading.move_line(node, share, by, now))
+
     def preview(self, choice: int) -> None:
         """See `Actions.preview`."""
         self._post(lambda desk, _: desk.amending.preview(choice))

@@ -145,6 +145,10 @@ class Stage:
         """Stop the playhead; the arm stays where it is."""
         self.playback = player.play(self.playback, False)
 
+    def rewind(self) -> None:
+        """Put the playhead back to the beginning; the arm stays where it is."""
+        self.playback = player.seek(self.playback, 0.0)
+
     def seek(self, time: float) -> None:
         """Move the playhead; the arm goes there."""
         self.playback = player.seek(self.playback, time)

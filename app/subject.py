@@ -20,6 +20,15 @@ class Subject:
     """What it belongs to."""
 
 
+def subjects(model: Model) -> dict[str, str]:
+    """Give a label for everything that can be corrected, with its scene name."""
+    shown = model.source.demonstrations
+    demonstrations = {
+        f"{i + 1}: {one.demonstration.name}": f"/demonstrations/{i}" for i, one in enumerate(shown)
+    }
+    return demonstrations | {f"Run {i + 1}": f"/reproductions/{i}" for i in range(len(model.runs))}
+
+
 def subject_of(node: str, model: Model) -> Subject | None:
     """Find what a scene name stands for; None where it is no such line."""
     kind, _, which = node.strip("/").partition("/")

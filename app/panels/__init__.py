@@ -18,6 +18,7 @@ from app.panels.keys import Keys
 from app.panels.kinds import KindsPanel
 from app.panels.landmarks import LandmarksPanel
 from app.panels.lesson import LessonPanel
+from app.panels.line import LinePanel
 from app.panels.offer import OfferPanel
 from app.panels.physics import PhysicsPanel
 from app.panels.placing import PlacingPanel
@@ -115,7 +116,11 @@ def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]
             ThingsPanel(gui, actions),
         )
     with tabs.add_tab("Fix", viser.Icon.TOOL):
-        fix: tuple[Panel, ...] = (ReplayPanel(gui, actions), RulesPanel(gui, actions))
+        fix: tuple[Panel, ...] = (
+            ReplayPanel(gui, actions),
+            LinePanel(gui, actions),
+            RulesPanel(gui, actions),
+        )
     return (*header, *teach, *tries, *move, *fix)
 
 

@@ -9,6 +9,7 @@ from app.binding import QUIET, Binding, Changed, assign, on_press, one_of
 from app.document import Feel
 from app.panels import words
 from app.store import Progress, State
+from app.subject import subjects
 
 HOW: Final = "The arm replays the motion slowly. Pull its hand where the motion should be otherwise."
 REPLAY: Final = "Replay and let me correct"
@@ -46,7 +47,7 @@ class ReplayPanel:
         """Follow what can be replayed, and the replay."""
         shown, runs = state.document.demonstrations, state.model.runs
         if state.dragging is None and self._listed(shown, len(runs)):
-            self._nodes = replayable(state)
+            self._nodes = subjects(state.model)
             assign(self._what, options=tuple(self._nodes) or (NOTHING,))
         for binding in self._bindings:
             binding.draw(state)
@@ -59,15 +60,6 @@ class ReplayPanel:
     def _chosen(self, state: State) -> str:
         labels = [label for label, node in self._nodes.items() if node == state.view.replay]
         return labels[0] if labels else next(iter(self._nodes), NOTHING)
-
-
-def replayable(state: State) -> dict[str, str]:
-    """Give a label for everything that can be replayed, with its scene name."""
-    demonstrations = {
-        f"{index + 1}: {shown.demonstration.name}": f"/demonstrations/{index}"
-        for index, shown in enumerate(state.document.demonstrations)
-    }
-    return demonstrations | {f"Run {i + 1}": f"/reproductions/{i}" for i in range(len(state.model.runs))}
 
 
 def how_far(replay: Progress) -> str:

@@ -9,6 +9,8 @@ from typing import Final
 import numpy as np
 import viser
 
+from app import linepull
+from app.binding import Changed
 from app.document import FloatArray
 from app.scene.cylinder import rings
 from app.scene.nodes import Ball, Line
@@ -17,6 +19,7 @@ from app.scene.style import DOT_RADIUS, DOUBLE, FREE, REFINED, THICK, THIN
 from app.store import State
 from gc_core import GeneralizedCylinder
 
+PLACE_RADIUS: Final = 0.014
 OUTLINE: Final = (10, 24)
 """Rings of the outline, and corners of each."""
 MOST_POINTS: Final = 150
@@ -24,12 +27,17 @@ MOST_POINTS: Final = 150
 
 
 class Replay:
-    """``/replay/former``, ``/replay/done`` with its ends, and ``/replay/outline``."""
+    """``/replay/former``, ``/replay/done`` with its ends, ``/replay/outline``, and ``/replay/place``.
+
+    That is where a line is moved by buttons and numbers.
+    """
 
     def __init__(self, api: viser.SceneApi) -> None:
         self._ends = [
             Ball(api, f"/replay/{end}", radius=DOT_RADIUS, color=REFINED) for end in ("first", "last")
         ]
+        self._place = Ball(api, "/replay/place", radius=PLACE_RADIUS, color=REFINED)
+        self._placed = Changed()
         self._outline = Line(api, "/replay/outline", color=REFINED, thickness=THIN)
         self._drawn: FloatArray | None = None
         self._outlined: GeneralizedCylinder | None = None
@@ -50,6 +58,17 @@ class Replay:
             self._done.show(segments(thin_out(done if len(done) else _NOWHERE, MOST_POINTS)))
             self._draw_ends(done)
         self._draw_outline(outlined(state))
+        self._draw_place(state)
+
+    def _draw_place(self, state: State) -> None:
+        view, waiting = state.view, state.proposal
+        if not self._placed(view.line, view.line_share, state.model, waiting):
+            return
+        place = linepull.place_on(view.line, view.line_share, state.model, waiting) if view.line else None
+        if place is None:
+            self._place.hide()
+        else:
+            self._place.show(place)
 
     def _draw_ends(self, done: FloatArray) -> None:
         for ball, place in zip(self._ends, (0, -1), strict=True):

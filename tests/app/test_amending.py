@@ -310,3 +310,14 @@ def test_every_event_of_a_pull_is_used(desk: Desk, mouse: Mouse, monkeypatch: py
     mouse.wait(6.0)
 
     assert kept[0].events == 1 + 17 + 1
+
+
+def test_after_a_replay_the_playhead_is_at_the_beginning_and_the_hand_stays(desk: Desk, mouse: Mouse) -> None:
+    desk.seek(1.0, mouse.now)
+    replay(desk, mouse)
+    desk.amend(lambda amending: amending.end(mouse.now))
+    hand = desk.state().hand.position
+    mouse.wait(0.5)
+
+    assert desk.state().playback.time == 0.0
+    np.testing.assert_array_equal(desk.state().hand.position, hand)

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from app import biting, edits
+from app.arm import PlanarArm
+from app.desk import Desk
 from app.document import Document
 from app.model import Model, learn
 from app.panels.rules import overview
@@ -67,6 +69,22 @@ def test_rules_that_contradict_each_other_are_named() -> None:
     document = ruled(ruled(two_runs(), 0.06, name="Lid"), -0.06, name="Floor")
 
     assert "Lid and Floor contradict each other" in overview(state_of(document))
+
+
+def test_a_rule_that_contradicts_another_says_so_when_it_is_made_and_when_it_is_switched_on() -> None:
+    lid = ruled(two_runs(), 0.06, name="Lid")
+    desk = Desk(lid, PlanarArm())
+    said = []
+    for change in (
+        lambda document: ruled(document, -0.06, name="Floor"),
+        lambda document: edits.enable_rule(document, 0, False),
+        lambda document: edits.enable_rule(document, 0, True),
+    ):
+        desk.edit(change, "change rules", now=10.0)
+        said.append(desk.state().message)
+
+    assert [one.startswith("Lid and Floor contradict each other") for one in said] == [True, False, True]
+    assert desk.state().warning
 
 
 def test_few_planes_are_drawn_flat_and_across_their_normals() -> None:

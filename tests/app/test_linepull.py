@@ -237,3 +237,48 @@ def test_a_run_that_the_arm_cannot_follow_can_be_a_rule_only_and_still_asks(
     assert proposal is not None
     assert [choice.label for choice in proposal.choices] == ["Add a rule"]
     assert stiff.store.document is before
+
+
+@pytest.mark.parametrize("node", LINES)
+def test_a_line_moved_by_numbers_becomes_what_the_mouse_makes_of_it(
+    node: str, desk: Desk, mouse: Mouse
+) -> None:
+    place = linepull.place_on(node, 0.4, desk.state().model, None)
+    assert place is not None
+    mouse.pull(node, BY, at=place, kept=False)
+    pulled = desk.state().proposal
+    desk.undo(mouse.now)
+    desk.leading.move_line(node, 0.4, BY, mouse.now)
+    moved = desk.state().proposal
+
+    assert pulled is not None
+    assert moved is not None
+    np.testing.assert_allclose(moved.after, pulled.after, atol=1e-12)
+    assert [one.label for one in moved.choices] == [one.label for one in pulled.choices]
+
+
+def test_a_line_moved_twice_by_numbers_goes_on_from_the_same_place(desk: Desk, mouse: Mouse) -> None:
+    share, before = 0.4, desk.state()
+    for _ in range(2):
+        desk.leading.move_line(LINES[1], share, 0.4 * BY, mouse.now)
+    state = desk.state()
+    places = [linepull.place_on(LINES[1], share, one.model, one.proposal) for one in (before, state)]
+
+    assert places[0] is not None
+    assert places[1] is not None
+    np.testing.assert_allclose(places[1] - places[0], 0.8 * BY, atol=1e-9)
+
+
+def test_numbers_that_lead_a_line_out_of_reach_say_what_holds_it_back(desk: Desk, mouse: Mouse) -> None:
+    for _ in range(3):
+        desk.leading.move_line(LINES[0], 0.5, np.array([0.5, 0.0, 0.0]), mouse.now)
+
+    assert desk.state().message.startswith("The arm cannot follow")
+    assert desk.state().warning
+
+
+@pytest.mark.parametrize("by", [(np.nan, 0.0, 0.0), (9.0, 0.0, 0.0)])
+def test_numbers_that_make_no_sense_move_no_line(by: tuple[float, ...], desk: Desk, mouse: Mouse) -> None:
+    desk.leading.move_line(LINES[0], 0.5, np.array(by), mouse.now)
+
+    assert desk.state().proposal is None

@@ -8,11 +8,14 @@ import numpy as np
 import pytest
 
 from app import edits
+from app.document import View
 from app.model import learn
+from app.panels.line import place
 from app.panels.proposal import asked, effect
-from app.panels.replay import how_far, replayable
+from app.panels.replay import how_far
 from app.proposal import Choice, Proposal
 from app.store import Progress, State
+from app.subject import subjects
 from app.trial import Trial
 from tests.panels.desk import Bench, state_of, taught
 
@@ -37,7 +40,7 @@ def progress(state: State, count: int, *, held: bool = False) -> Progress:
 
 
 def test_everything_that_moves_can_be_replayed() -> None:
-    nodes = replayable(state_of(taught())).values()
+    nodes = subjects(state_of(taught()).model).values()
 
     assert list(nodes) == [*(f"/demonstrations/{i}" for i in range(5)), "/reproductions/0"]
 
@@ -140,3 +143,30 @@ def test_a_trial_of_a_former_skill_says_so(bench: Bench) -> None:
 
     assert "The skill has changed since." in bench.client.text()
     assert not np.any([e.label == "Show what happened" and e.usable for e in bench.client.gui])
+
+
+def test_a_line_is_moved_by_buttons_and_by_numbers(bench: Bench) -> None:
+    node = "/demonstrations/1"
+    state = state_of(taught(), view=View(line=node, line_share=0.25))
+    bench.draw(state)
+    shown = place(state)
+    assert shown is not None
+    bench.client.press("z − 1")
+    _, (chosen, share, step) = bench.notes.next()
+    bench.client.set_gui("Place [cm]", (float(100.0 * shown[0] + 3.0), *bench.client.value("Place [cm]")[1:]))
+    _, (_, _, typed) = bench.notes.next()
+
+    assert (chosen, share) == (node, 0.25)
+    np.testing.assert_allclose(step, (0.0, 0.0, -0.01))
+    np.testing.assert_allclose(typed, (0.03, 0.0, 0.0), atol=1e-9)
+
+
+def test_where_a_line_is_moved_is_chosen_by_its_name_and_a_part_of_it(bench: Bench) -> None:
+    bench.draw(state_of(taught()))
+    closed = not bench.client.element("Place [cm]").usable
+    bench.client.set_gui("Line", "Run 1")
+    bench.client.set_gui("After [% of it]", 30.0)
+
+    calls = [bench.notes.next() for _ in range(2)]
+    assert closed
+    assert calls == [("look", (("line", "/reproductions/0"),)), ("look", (("line_share", 0.3),))]
