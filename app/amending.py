@@ -43,6 +43,7 @@ class Amending:
         self._replay: Replaying | None = None
         self._pending: Pending | None = None
         self._aside: Pending | None = None
+        self._contradicting: frozenset[tuple[str, ...]] = frozenset()
 
     @property
     def replays(self) -> bool:
@@ -222,6 +223,14 @@ class Amending:
             return FIRST_ANSWER, True
         said = self.answer(0, now)
         return said if said is not None and said[1] else None
+
+    def contradicting(self, model: Model) -> Said | None:
+        """Say once that rules contradict each other: when one is made or switched on, not while it is shown."""
+        if model.coarse or self._pending is not None:
+            return None
+        new = [one for one in model.contradictions if one.names not in self._contradicting]
+        self._contradicting = frozenset(one.names for one in model.contradictions)
+        return (new[0].sentence(), True) if new else None
 
     def discard(self) -> Said | None:
         """Forget the correction that waits, if there is one."""

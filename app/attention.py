@@ -25,19 +25,6 @@ def urgent(hand: Hand, held: Grasp | None, model: Model, arm: Arm) -> tuple[str,
     return bending.following(model, which, arm) if kind in {"landmarks", "turns"} else None
 
 
-class Contradicting:
-    """Says once that rules contradict each other, when they begin to."""
-
-    def __init__(self) -> None:
-        self._known: frozenset[tuple[str, ...]] = frozenset()
-
-    def news(self, model: Model) -> str:
-        """Give the sentence about the first set of rules that did not contradict each other before."""
-        new = [one for one in model.contradictions if one.names not in self._known]
-        self._known = frozenset(one.names for one in model.contradictions)
-        return new[0].sentence() if new else ""
-
-
 def _cannot_follow(short: Shortfall) -> str:
     if not short.stuck:
         return f"The arm cannot follow: {short.reason}."

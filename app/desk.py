@@ -46,7 +46,6 @@ class Desk:
         self.saved = self.saving = document
         self.leading = Leading(self)
         """Buttons and numbers for the hand."""
-        self._contradicting = attention.Contradicting()
         self._set_stage()
 
     # --- what is drawn -----------------------------------------------------------------
@@ -85,9 +84,7 @@ class Desk:
         if self.model.source is not document:
             self.model = learn(document, self.model, coarse=self._held is not None)
             self._set_stage()
-        settled = self._held is None and not self.amending.waits
-        if settled and (news := self._contradicting.news(self.model)):
-            self.say(news, warning=True)
+        self.amend(lambda amending: amending.contradicting(self.model))
         return document
 
     def _set_stage(self) -> None:
