@@ -225,7 +225,7 @@ class Amending:
         return said if said is not None and said[1] else None
 
     def contradicting(self, model: Model) -> Said | None:
-        """Say once that rules contradict each other: when one is made or switched on, not while it is shown."""
+        """Say once that rules contradict each other: when one is made or switched on."""
         if model.coarse or self._pending is not None:
             return None
         new = [one for one in model.contradictions if one.names not in self._contradicting]

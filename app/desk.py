@@ -53,7 +53,8 @@ class Desk:
     def state(self) -> State:
         """Take a snapshot for panels and scene."""
         document = self.learned()
-        message, warning = self._words()
+        urgent = attention.urgent(self.stage.hand, self._held, self.model, self.stage.arm)
+        message, warning = urgent or (self.message, self.warning)
         return State(
             document=document,
             view=self.view,
@@ -84,7 +85,7 @@ class Desk:
         if self.model.source is not document:
             self.model = learn(document, self.model, coarse=self._held is not None)
             self._set_stage()
-        self.amend(lambda amending: amending.contradicting(self.model))
+        self.amend(lambda a: a.contradicting(self.model))
         return document
 
     def _set_stage(self) -> None:
@@ -99,10 +100,6 @@ class Desk:
         """The hand that is being led, by a pointer or by buttons."""
         pull = None if self._held is None else self._held.pull
         return pull if isinstance(pull, HandPull) else None
-
-    def _words(self) -> tuple[str, bool]:
-        said = attention.urgent(self.stage.hand, self._held, self.model, self.stage.arm)
-        return (self.message, self.warning) if said is None else said
 
     def say(self, message: str, *, warning: bool = False) -> None:
         """Show a sentence."""
