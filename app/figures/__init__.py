@@ -6,19 +6,16 @@ from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
 from threading import Lock
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 from app.arm.shapes import Shape
 from app.document import Document, FloatArray
-from app.figures.catalogue import FIGURES
+from app.figures.catalogue import FIGURES, Form
 from app.figures.errors import FigureError, NoMatplotlibError, NoSuchFigureError, NothingToDrawError
 from app.figures.subject import Subject
 from app.resources import static_folder
 from app.skills import load_skill
 from gc_core import GeneralizedCylinder
-
-if TYPE_CHECKING:
-    from app.figures.sheet import Form
 
 _ONE_AT_A_TIME: Final = Lock()
 """Matplotlib's style belongs to the process, and skills are exported by several threads."""
@@ -26,6 +23,7 @@ _ONE_AT_A_TIME: Final = Lock()
 __all__ = (
     "FIGURES",
     "FigureError",
+    "Form",
     "NoMatplotlibError",
     "NoSuchFigureError",
     "NothingToDrawError",

@@ -16,7 +16,7 @@ from gc_core.frames import angles_between, smooth
 AXES: Final = (("T", fig.INK), ("N", fig.REFINED), ("B", "#B8860B"))
 SECTIONS: Final = (0.12, 0.4, 0.68, 0.95)
 """Which slices are drawn with their frames, by station [-]."""
-LETTERED: Final = 1
+LETTERED: Final = 3
 """Which of them has letters at its frame."""
 REACH: Final = 8
 """Stations over which the directrix is smoothed before it is differentiated twice."""

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, Literal, TypeAlias
+
+Form: TypeAlias = Literal["svg", "png"]
+"""Kinds of file."""
 
 
 @dataclass(frozen=True)

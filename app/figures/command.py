@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import json as json_text
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Final
 
 import tyro
 
 from app.commands import Units
-from app.figures import FIGURES, NoSuchFigureError, paper_figure
+from app.figures import FIGURES, Form, NoSuchFigureError, paper_figure
 from app.files import FileError, UnknownFormatError
 from app.opening import opened
 
-if TYPE_CHECKING:
-    from app.figures.sheet import Form
-
-FORMS: tuple[Form, ...] = ("svg", "png")
+FORMS: Final[tuple[Form, ...]] = ("svg", "png")
 
 
 def figure(

@@ -47,7 +47,10 @@ def draw(subjects: tuple[Subject, ...]) -> Any:
 
 
 def _runs(where: fig.Space, subject: Subject, found: Comparison, row: Row) -> None:
-    fig.bodies(where, subject.document.things)
+    if row.method == "gc":
+        fig.tube(where, found.cylinder, things=subject.document.things)
+    else:
+        fig.bodies(where, subject.document.things)
     fig.lines(where, subject.paths, "demonstrations", color=fig.DEMONSTRATION, linewidth=0.6)
     runs = [run.positions for run in found.runs.get(row.method, ())]
     fig.lines(where, runs, "runs from five starts", color=fig.REPRODUCTION, linewidth=1.3, zorder=2.3)

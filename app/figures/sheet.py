@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from io import BytesIO
-from typing import Any, Final, Literal, TypeAlias, cast
+from typing import Any, Final, cast
 
 import matplotlib as mpl
 import numpy as np
@@ -23,9 +23,8 @@ from matplotlib.ticker import MaxNLocator
 
 from app.arm.shapes import Shape, pose_of
 from app.document import FloatArray
+from app.figures.catalogue import Form
 from gc_core import GeneralizedCylinder
-
-Form: TypeAlias = Literal["svg", "png"]
 
 DEMONSTRATION, DIRECTRIX, TUBE, REPRODUCTION, GOAL = "#C4161C", "#1F3FA8", "#8E96A6", "#E04BDC", "#F2BA1A"
 REFINED = "#1A9E73"
@@ -89,7 +88,9 @@ class Space:
 
     def text(self, place: FloatArray, words: str, **look: Any) -> None:
         """Write beside a place (3,) [m]."""
-        self.axes.annotate(words, self.on_paper(place), textcoords="offset points", **look)
+        self.axes.annotate(
+            words, self.on_paper(place), textcoords="offset points", annotation_clip=False, **look
+        )
 
 
 def styled() -> AbstractContextManager[None]:
@@ -180,7 +181,7 @@ def arrows(where: Space, places: FloatArray, moves: FloatArray, **look: Any) -> 
     seen = np.linalg.norm(moves, axis=1) > 0.004
     start, step = where.on_paper(places[seen]), where.on_paper(moves[seen])
     shape = {"color": REFINED, "width": 0.003, "headwidth": 4.0, "headlength": 5.0, "zorder": 2.4} | look
-    where.axes.update_datalim(start + step)
+    where.axes.update_datalim(start + 1.4 * step)  # with room for a letter
     where.axes.autoscale_view()
     where.axes.quiver(*start.T, *step.T, angles="xy", scale_units="xy", scale=1.0, **shape)
 
