@@ -152,6 +152,18 @@ class Actions(Protocol):
         """Forget the offered file."""
         ...
 
+    def prepare_export(self, suffix: str) -> None:
+        """Have the skill written as a file with this suffix, and show what is in it."""
+        ...
+
+    def take_export(self) -> None:
+        """Send the file that is shown to this tab."""
+        ...
+
+    def close_export(self) -> None:
+        """Forget the file that is shown."""
+        ...
+
     def open_skill(self, name: str) -> None:
         """Open a built-in skill, or an empty one (``""``), in place of the present one; can be undone."""
         ...

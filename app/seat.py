@@ -7,9 +7,12 @@ from app import skills
 from app.actions import Drag, ViewName
 from app.desk import Desk
 from app.document import Document, FloatArray
-from app.files import Frame, Unit
+from app.exports import is_skill, unpack
+from app.files import Frame, Unit, inspect_bytes
 from app.library import Library
 from app.pages import fresh_code
+from app.scene import VIEWS
+from app.viewers import Viewer
 
 if TYPE_CHECKING:
     from app.session import Session
@@ -119,11 +122,19 @@ class Seat:
 
     def see_from(self, view: ViewName) -> None:
         """See `Actions.see_from`."""
-        self._session.see_from(self._client_id, view)
+        self._session.at(self._client_id, lambda viewer: viewer.see_from(VIEWS[view]))
 
     def offer_file(self, name: str, content: bytes) -> None:
         """See `Actions.offer_file`."""
-        self._session.look_into(self._client_id, name, content)
+        if is_skill(name):
+            self._session.look_into(self._client_id, name, lambda: unpack(name, content), self._open)
+            return
+        self._session.look_into(
+            self._client_id,
+            name,
+            lambda: inspect_bytes(name, content),
+            lambda reading: self._post(lambda desk, _: desk.offer_reading(reading)),
+        )
 
     def accept_file(self, unit: Unit, frame: Frame) -> None:
         """See `Actions.accept_file`."""
@@ -133,14 +144,39 @@ class Seat:
         """See `Actions.decline_file`."""
         self._post(lambda desk, _: desk.decline_file())
 
+    def prepare_export(self, suffix: str) -> None:
+        """See `Actions.prepare_export`."""
+        self._post(lambda desk, _: self._session.exporting.prepare(desk, suffix))
+
+    def take_export(self) -> None:
+        """See `Actions.take_export`."""
+
+        def take(viewer: Viewer) -> None:
+            parcel = self._session.exporting.parcel
+            if parcel is not None and parcel.ready:
+                viewer.send(parcel)
+
+        self._session.at(self._client_id, take)
+
+    def close_export(self) -> None:
+        """See `Actions.close_export`."""
+        self._post(lambda _desk, _now: self._session.exporting.put_away())
+
     def open_skill(self, name: str) -> None:
         """See `Actions.open_skill`; one's own work also gets an address where it stays."""
-        workshop = self._session.workshop
+        folder = self._session.workshop.skills_folder
+
+        def load(_desk: Desk, _now: float) -> None:
+            self._open(skills.load_skill(folder, name) if name else skills.empty_skill())
+
+        self._post(load)
+
+    def _open(self, opened: Document) -> None:
+        """Put a skill on the desk, and the present one away."""
 
         def open_it(desk: Desk, now: float) -> None:
-            opened = skills.load_skill(workshop.skills_folder, name) if name else skills.empty_skill()
             desk.let_go(now)
-            where = self._put_away(desk.store.document, workshop.library)
+            where = self._put_away(desk.store.document, self._session.workshop.library)
             desk.open(opened, now)
             if where:
                 desk.say(where)

@@ -12,22 +12,20 @@ from collections.abc import Callable, Sequence, Set
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Final
+from typing import Final, TypeVar
 
 import viser
 
 from app import viewers
-from app.actions import ViewName
 from app.actor import TICK, Actor, Latest
 from app.arm.conditions import Conditions
 from app.arm.protocol import Arm
 from app.desk import Desk
 from app.document import Document, FloatArray
-from app.files import inspect_bytes
+from app.exporting import Exporting
 from app.inquiry import Answer, Inquirer, Inquiry
 from app.library import Library, LibraryError
 from app.planning import plan_run
-from app.scene import VIEWS
 from app.seat import Seat
 from app.shaping import Shaping
 from app.store import Plan, State
@@ -44,6 +42,7 @@ SAVE_AGAIN: Final = 5.0
 IDLE_AFTER: Final = 180.0
 """Playback stops when nobody has done anything for this time [s]."""
 
+T = TypeVar("T")
 _log = logging.getLogger(__name__)
 
 
@@ -83,6 +82,7 @@ class Session:
         self._saves = Latest(workshop.workers, self._actor)
         self._files = Latest(workshop.workers, self._actor)
         self._shaping = Shaping(workshop.workers, self._actor)
+        self.exporting = Exporting(workshop.workers, self._actor, workshop.make_arm)
         self._trials = Trials(workshop.workers, self._actor, workshop.make_arm)
         self._inquirer = Inquirer(Latest(workshop.workers, self._actor), workshop.make_arm)
 
@@ -190,22 +190,22 @@ class Session:
 
         self._actor.post(action)
 
-    def see_from(self, client_id: int, view: ViewName) -> None:
-        """Move the camera of one tab, whether it works or watches."""
+    def at(self, client_id: int, do: Callable[[Viewer], None]) -> None:
+        """Do something in one tab, whether it works or watches."""
 
         def action() -> None:
             viewer = self._viewers.get(client_id)
             if viewer is not None:
-                viewer.see_from(VIEWS[view])
+                do(viewer)
 
         self._actor.post(action)
 
-    def look_into(self, client_id: int, name: str, content: bytes) -> None:
-        """Read an uploaded file in a worker and offer what is in it."""
+    def look_into(self, client_id: int, name: str, read: Callable[[], T], done: Callable[[T], None]) -> None:
+        """Read an uploaded file in a worker."""
 
         def look(desk: Desk, _: float) -> None:
             desk.say(f"Reading {name} …")
-            self._files.submit(lambda: inspect_bytes(name, content), desk.offer_reading)
+            self._files.submit(read, done)
 
         self.post(client_id, look)
 
@@ -229,7 +229,7 @@ class Session:
         return self._desk.tick(now, dt if dt < LONGEST_TICK else TICK)
 
     def _draw(self) -> None:
-        state = replace(self._desk.state(), shapes=self._shaping.shapes)
+        state = replace(self._desk.state(), shapes=self._shaping.shapes, parcel=self.exporting.parcel)
         try:
             for viewer in tuple(self._viewers.values()):
                 viewer.draw(state)

@@ -16,6 +16,7 @@ from app.arm.verdict import Verdict
 from app.document import Document, FloatArray, View
 from app.files import Frame, Unit
 from app.model import Model
+from app.parcel import Parcel
 from app.proposal import Correction, Proposal
 from app.shapes import Shapes
 from app.trial import Trial
@@ -180,6 +181,8 @@ class State:
     """Whether the message says that something is wrong."""
     offer: Offer | None = None
     """A file that waits to be accepted."""
+    parcel: Parcel | None = None
+    """The skill as a file, looked at before it is taken."""
     correction: Correction | None = None
     """A line that is being pulled."""
     replay: Progress | None = None

@@ -14,6 +14,7 @@ from app.actions import Actions
 from app.arm.protocol import Arm
 from app.panels import Panels
 from app.panels.watch import WatchPanel
+from app.parcel import Parcel
 from app.scene import Scene, Viewpoint
 from app.store import State
 
@@ -36,6 +37,10 @@ class Viewer:
             self.scene.draw(state)
             self.panels.draw(state)
         self.client.flush()
+
+    def send(self, parcel: Parcel) -> None:
+        """Let the browser save a file."""
+        self.client.send_file_download(parcel.name, parcel.content, save_immediately=True)
 
     def see_from(self, viewpoint: Viewpoint) -> None:
         """Move the camera of this tab."""

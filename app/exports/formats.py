@@ -221,12 +221,12 @@ FORMATS: Final[Mapping[str, Format]] = {
         _demonstrations_as(".h5"),
     ),
     ".yaml": Format(
-        "Run for a real Jaco (YAML)",
+        "Run for a real Jaco",
         FOR_A_REAL_ARM,
         _trajectory_as(as_yaml),
     ),
     ".json": Format(
-        "Run for a real Jaco (JSON)",
+        "Run for a real Jaco",
         FOR_A_REAL_ARM,
         _trajectory_as(as_json),
     ),
@@ -236,12 +236,12 @@ FORMATS: Final[Mapping[str, Format]] = {
         lambda subject: format_glb(subject.tube),
     ),
     ".svg": Format(
-        "Figure for a paper (SVG)",
+        "Figure for a paper",
         "Tube, demonstrations, middle line and runs in the paper's colours, as lines that can be edited.",
         _figure_as("svg"),
     ),
     ".png": Format(
-        "Figure for a paper (PNG)",
+        "Figure for a paper",
         "Tube, demonstrations, middle line and runs in the paper's colours, as a picture.",
         _figure_as("png"),
     ),

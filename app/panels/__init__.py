@@ -12,6 +12,7 @@ import viser
 from app.actions import Actions
 from app.panels.demonstrations import DemonstrationsPanel
 from app.panels.encoding import EncodingPanel
+from app.panels.export import ExportPanel
 from app.panels.hand import HandPanel
 from app.panels.header import HeaderPanel
 from app.panels.keys import Keys
@@ -86,6 +87,7 @@ def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]
     gui.main_panel.set_width(MAIN_WIDTH)
     header: tuple[Panel, ...] = (
         HeaderPanel(gui, actions, skills),
+        ExportPanel(gui, actions),
         StatusPanel(gui),
         ProposalPanel(gui, actions),
         RepositionPanel(gui, actions),

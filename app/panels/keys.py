@@ -20,6 +20,10 @@ class Keys:
         self._redo = gui.add_command(
             "Redo", hotkey="Z", modifier="cmd/ctrl+shift", icon=viser.Icon.ARROW_FORWARD_UP
         )
+        again = gui.add_command(
+            "Redo (as Windows has it)", hotkey="Y", modifier="cmd/ctrl", icon=viser.Icon.ARROW_FORWARD_UP
+        )
+        on_command(again, actions.redo)
         play = gui.add_command("Play or pause", hotkey="space", icon=viser.Icon.PLAYER_PLAY)
         gripper = gui.add_command("Open or close the hand", hotkey="G", icon=viser.Icon.HAND_GRAB)
         record = gui.add_command("Record by buttons, or stop", hotkey="R", icon=viser.Icon.PLAYER_RECORD)

@@ -12,7 +12,7 @@ from app.store import State
 
 ADD: Final = "Add"
 CANCEL: Final = "Cancel"
-SUFFIXES: Final = ".mat,.csv,.npy,.npz,.h5,.hdf5"
+SUFFIXES: Final = ".mat,.csv,.npy,.npz,.h5,.hdf5,.gcteach"
 UNITS: Final[tuple[Unit, ...]] = get_args(Unit)
 
 

@@ -41,6 +41,11 @@ def escape(text: str) -> str:
     return _escape(" ".join(text.split()))
 
 
+def escape_line(line: str) -> str:
+    """Make a line of a file harmless inside HTML, with its blanks as they are."""
+    return _escape(line)
+
+
 def note(text: str, *, strong: bool = False, color: str = "inherit") -> str:
     """One paragraph of small print as HTML; ``text`` is HTML already."""
     weight = "600" if strong else "400"

@@ -31,6 +31,7 @@ from app.files import (
     write,
 )
 from tests.files.makers import GOOD, csv_of, demonstrations, hdf5_of, line, mat_of, npy_of, npz_of, zip_of
+from tests.files.malformed import MALFORMED, TRACES
 
 
 class Bomb:
@@ -299,17 +300,19 @@ def test_an_hdf5_bomb_is_refused_by_the_size_of_its_pieces() -> None:
         inspect_bytes("a.h5", out.getvalue())
 
 
-def test_a_zip_bomb_is_refused_by_what_it_announces() -> None:
-    bomb = zip_of({f"{i}.npy": bytes(40 * 2**20) for i in range(8)})
-    assert len(bomb) < 2**20
+def test_a_zip_bomb_is_refused_by_what_it_announces(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.files.archives.LARGEST_UNPACKED", 8 * 2**20)  # quicker than at 256 MB
+    bomb = zip_of({f"{i}.npy": bytes(2**20) for i in range(9)})
+    assert len(bomb) < 2**16
 
     with pytest.raises(TooLargeError, match="unpacks to"):
         inspect_bytes("a.npz", bomb)
 
 
-def test_a_mat_bomb_is_refused_while_it_is_counted() -> None:
+def test_a_mat_bomb_is_refused_while_it_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.files.mat_format.LARGEST_UNPACKED", 8 * 2**20)  # quicker than at 256 MB
     packer = zlib.compressobj()
-    packed = b"".join(packer.compress(bytes(2**20)) for _ in range(300)) + packer.flush()
+    packed = b"".join(packer.compress(bytes(2**20)) for _ in range(9)) + packer.flush()
     header = b"MATLAB 5.0 MAT-file".ljust(124) + b"\x00\x01IM"
 
     with pytest.raises(TooLargeError, match="unpacks to more than"):
@@ -338,6 +341,15 @@ def test_no_code_of_a_file_is_ever_run(tmp_path: Path) -> None:
             inspect_bytes(name, content)
 
     assert not trace.exists()
+
+
+@pytest.mark.parametrize("name", MALFORMED)
+def test_a_malformed_file_gives_a_sentence_and_runs_nothing(name: str) -> None:
+    with pytest.raises(FileError, match=rf"{name}.*\.$") as caught:
+        inspect_bytes(f"../../{name}", MALFORMED[name])
+
+    assert ".." not in str(caught.value).replace("'../../outside.npy'", "")
+    assert TRACES == []
 
 
 @pytest.mark.parametrize(

@@ -136,6 +136,12 @@ class FakeClient:
             return list(self._mirror.modals.values())
 
     @property
+    def downloads(self) -> dict[str, bytes]:
+        """Content of the files that were sent to be saved, as far as it came, by name."""
+        with self._news:
+            return dict(self._mirror.downloads.values())
+
+    @property
     def commands(self) -> list[str]:
         """Labels of the keyboard commands."""
         with self._news:

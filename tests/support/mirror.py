@@ -79,6 +79,8 @@ class Mirror:
     """Properties by uuid of the keyboard commands."""
     uploaded: dict[str, int] = field(default_factory=dict)
     """Bytes that the server has acknowledged, by transfer."""
+    downloads: dict[str, tuple[str, bytes]] = field(default_factory=dict)
+    """Name and content so far, by transfer."""
     theme: Mapping[str, Any] = field(default_factory=dict)
     scene_clicks: bool = False
     """Whether the server wants to hear of clicks anywhere in the scene."""
@@ -183,6 +185,15 @@ def _on_notice(mirror: Mirror, message: Message) -> None:
     mirror.notices.append((message["props"]["title"], message["props"]["body"]))
 
 
+def _on_download(mirror: Mirror, message: Message) -> None:
+    mirror.downloads[message["transfer_uuid"]] = (message["filename"], b"")
+
+
+def _on_part(mirror: Mirror, message: Message) -> None:
+    name, content = mirror.downloads[message["transfer_uuid"]]
+    mirror.downloads[message["transfer_uuid"]] = (name, content + bytes(message["content"]))
+
+
 def _on_scene_pointer(mirror: Mirror, message: Message) -> None:
     if message["event_type"] == "click":
         mirror.scene_clicks = bool(message["modifiers"])
@@ -208,6 +219,8 @@ _HANDLERS = {
     "RegisterCommandMessage": lambda s, m: s.commands.__setitem__(m["uuid"], m["props"]),
     "CommandUpdateMessage": _on_command_update,
     "RemoveCommandMessage": lambda s, m: s.commands.pop(m["uuid"], None),
+    "FileTransferStartDownload": _on_download,
+    "FileTransferPart": _on_part,
     "FileTransferPartAck": lambda s, m: s.uploaded.__setitem__(m["transfer_uuid"], m["transferred_bytes"]),
     "ThemeConfigurationMessage": lambda s, m: setattr(s, "theme", m),
 }
