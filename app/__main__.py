@@ -15,6 +15,7 @@ from app import commands
 from app.check import check
 from app.compare import compare
 from app.figures.command import figure
+from app.study.command import study
 from gc_core import GcError
 
 DESCRIPTION: Final = "Teach a robot arm a motion in the browser; `gc-teach` alone serves the app."
@@ -63,6 +64,7 @@ cli.command(commands.reproduce)
 cli.command(check)
 cli.command(compare)
 cli.command(figure)
+cli.command(study)
 
 
 def main(args: Sequence[str] | None = None) -> None:

@@ -1,0 +1,89 @@
+"""A study's report: one HTML file that needs no network."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from app.resources import static_folder
+from app.study.errors import FolderError
+from app.study.executors import tool
+from app.study.keeping import write_whole
+from app.study.parts import versions
+from app.study.plots import MARKS, small_multiples
+from app.study.running import Outcome
+from app.study.summary import CHAPTERS, Chapter, Quartiles, failures, lines_of
+
+_MARK_NAMES = dict(zip(MARKS, ("dot", "square", "triangle"), strict=True))
+
+
+def write_report(found: Outcome, folder: Path) -> Path:
+    """Write ``report.html``.
+
+    Returns
+    -------
+    Path
+        Where it is.
+
+    Raises
+    ------
+    FolderError
+        If it cannot be written.
+    """
+    jinja: Any = tool("jinja2")
+    source = static_folder() / "studies"
+    pages = jinja.Environment(
+        loader=jinja.FileSystemLoader(source), autoescape=True, trim_blocks=True, lstrip_blocks=True
+    )
+    page: str = pages.get_template("report.html").render(
+        study=found,
+        plan=found.spec.plan,
+        versions=dict(versions()) | {"Python": platform.python_version()},
+        chapters=[filled for chapter in CHAPTERS if (filled := _chapter(chapter, found))],
+        marks=list(zip(_MARK_NAMES.values(), sorted(found.spec.alignments), strict=False)),
+        failures=failures(found.found),
+        cell=cell,
+    )
+    path = folder / "report.html"
+    try:
+        write_whole(path, page.encode())
+    except OSError as error:
+        raise FolderError(str(folder), error.strerror or str(error)) from error
+    return path
+
+
+def _chapter(chapter: Chapter, found: Outcome) -> Mapping[str, Any] | None:
+    """Tables and plots of an experiment; None when the study has none of it."""
+    lines = lines_of(chapter, found.found)
+    if not lines:
+        return None
+    drawn = [
+        each for each in chapter.measures if each.drawn and any(line.found[each.column] for line in lines)
+    ]
+    shown = [each for each in chapter.measures if any(line.found[each.column] for line in lines)]
+    sets = sorted({line.part.data_set for line in lines})
+    return {
+        "title": chapter.title,
+        "what": chapter.what,
+        "measures": shown,
+        "plots": [
+            (each, small_multiples(each, lines, f"{chapter.experiment}-{each.column}")) for each in drawn
+        ],
+        "sets": [(name, [line for line in lines if line.part.data_set == name]) for name in sets],
+    }
+
+
+def cell(found: Quartiles | None) -> str:
+    """Write a median with its quartiles; nothing where nothing was measured."""
+    if found is None:
+        return ""
+    return f"{_short(found.median)} ({_short(found.low)}–{_short(found.high)})"
+
+
+def _short(value: float) -> str:
+    """Three digits, and no rounding errors."""
+    if abs(value) < 5e-4:
+        return "0"
+    return f"{value:.3g}" if abs(value) < 1e4 else f"{value:.1e}"
