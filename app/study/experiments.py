@@ -153,6 +153,7 @@ def _starts(plan: Plan, part: Part, data: DataSet, watch: _Watch) -> list[Row]:
                 jerk=metrics.jerk(path, run.times),
                 contained_shown=metrics.containment(tube, path),
                 contained_own=None if own is None else metrics.containment(own, path),
+                eta_start=_ratio(skill, start),
             )
             crossings[number] = half_way(run, tube)
         except GcError as error:
@@ -238,6 +239,7 @@ def _left_out(_: Plan, part: Part, data: DataSet, watch: _Watch) -> Iterator[Row
             run = watch.run(skill, path[0])
             yield replace(
                 row,
+                eta_start=_ratio(skill, path[0]),
                 start_error_m=metrics.end_error(run.positions[:1], path[0]),
                 end_error_m=metrics.end_error(run.positions, path[-1]),
                 frechet_m=metrics.frechet(run.positions, path),
@@ -246,6 +248,11 @@ def _left_out(_: Plan, part: Part, data: DataSet, watch: _Watch) -> Iterator[Row
             )
         except GcError as error:
             yield replace(row, failed=str(error))
+
+
+def _ratio(skill: Skill, start: FloatArray) -> float | None:
+    """Ratio of a start (3,) in the first slice of a tube; None for other methods."""
+    return float(reproduce(skill.cylinder, start).ratios[0]) if isinstance(skill, TubeSkill) else None
 
 
 _EXPERIMENTS: Final[dict[Experiment, Callable[[Plan, Part, DataSet, _Watch], list[Row] | Iterator[Row]]]] = {

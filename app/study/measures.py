@@ -48,6 +48,8 @@ class Row:
     """Share of its samples in the tightest tube (hull) around all that was shown [-]."""
     contained_own: float | None = None
     """Share of its samples in the tube that it was made with [-]."""
+    eta_start: float | None = None
+    """Ratio of the start in the tube that it was made with: above 1 where nothing was shown [-]."""
     shape: float | None = None
     """Root mean square distance from the run that was not moved after the best similarity, by the length of
     the latter [-]."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import lru_cache
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
@@ -18,6 +18,7 @@ from typing import Final, Literal, TypeAlias
 import numpy as np
 
 from app.document import Alignment
+from app.study.measures import Row
 from app.study.sources import DataSet
 from app.study.spec import Plan, Spec
 
@@ -82,6 +83,7 @@ def key_of(plan: Plan, part: Part, data: DataSet, made_with: Mapping[str, str]) 
         "amount": amount[part.experiment],
         "data": data.digest,
         "versions": dict(made_with),
+        "columns": [each.name for each in fields(Row)],
     }
     return sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:32]
 

@@ -14,7 +14,8 @@ from app.study.keeping import write_whole
 from app.study.parts import versions
 from app.study.plots import MARKS, small_multiples
 from app.study.running import Outcome
-from app.study.summary import CHAPTERS, Chapter, Quartiles, failures, lines_of
+from app.study.spec import Spec
+from app.study.summary import CHAPTERS, Chapter, Line, Quartiles, failures, lines_of
 
 _MARK_NAMES = dict(zip(MARKS, ("dot", "square", "triangle"), strict=True))
 
@@ -56,7 +57,7 @@ def write_report(found: Outcome, folder: Path) -> Path:
 
 def _chapter(chapter: Chapter, found: Outcome) -> Mapping[str, Any] | None:
     """Tables and plots of an experiment; None when the study has none of it."""
-    lines = lines_of(chapter, found.found)
+    lines = sorted(lines_of(chapter, found.found), key=lambda line: _as_asked(line, found.spec))
     if not lines:
         return None
     drawn = [
@@ -75,15 +76,24 @@ def _chapter(chapter: Chapter, found: Outcome) -> Mapping[str, Any] | None:
     }
 
 
+def _as_asked(line: Line, spec: Spec) -> tuple[str, int, str, str]:
+    """Order of lines: methods as the spec names them."""
+    part = line.part
+    return part.data_set, spec.methods.index(part.method), part.section, part.alignment
+
+
 def cell(found: Quartiles | None) -> str:
-    """Write a median with its quartiles; nothing where nothing was measured."""
+    """Write a median with its quartiles where they differ; nothing where nothing was measured."""
     if found is None:
         return ""
-    return f"{_short(found.median)} ({_short(found.low)}–{_short(found.high)})"
+    median, low, high = (_short(value) for value in (found.median, found.low, found.high))
+    return median if low == high else f"{median} ({low}–{high})"
 
 
 def _short(value: float) -> str:
     """Three digits, and no rounding errors."""
     if abs(value) < 5e-4:
         return "0"
-    return f"{value:.3g}" if abs(value) < 1e4 else f"{value:.1e}"
+    if abs(value) < 1e3:
+        return f"{value:.3g}"
+    return f"{value:.0f}" if abs(value) < 1e5 else f"{value:.1e}"

@@ -42,6 +42,15 @@ class Chapter:
 
 
 _JERK: Final = "Time average of the squared third derivative of the place; small is smooth."
+_RATIO: Final = Measure(
+    "eta_start",
+    "Start's ratio",
+    "-",
+    1.0,
+    "Where the start lies in the first slice of the tube that the run was made with, by the ratio rule: "
+    "above 1 it is outside of what was shown, and so is the whole run. For the tube only.",
+    drawn=False,
+)
 
 CHAPTERS: Final = (
     Chapter(
@@ -56,8 +65,8 @@ CHAPTERS: Final = (
                 "%",
                 100.0,
                 "Distance of a run from the mean of all runs where it passes the middle slice of the "
-                "tightest tube, by the distance of its start from the mean of all starts. 0: runs merge. "
-                "Kept in proportion to the tube's width: what was shown.",
+                "tightest tube, by the distance of its start from the mean of all starts. 0: runs merge; "
+                "100: they stay as far apart. The tube keeps it in proportion to its width there.",
             ),
             Measure(
                 "end_error_m",
@@ -98,6 +107,7 @@ CHAPTERS: Final = (
                 "Share of a run's samples in the tube that it was made with; for the tube only.",
                 drawn=False,
             ),
+            _RATIO,
         ),
     ),
     Chapter(
@@ -165,6 +175,7 @@ CHAPTERS: Final = (
                 "Distance of a run's end from the end of the one left out.",
                 drawn=False,
             ),
+            _RATIO,
             Measure("jerk", "Jerk", "m²/s⁶", 1.0, _JERK, drawn=False, log=True),
         ),
     ),

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.study.measures import on_sections
 from gc_core import GeneralizedCylinder, reproduce
 from gc_core.arrays import BoolArray, FloatArray
 from gc_core.radius import radius_at
@@ -29,7 +30,7 @@ class Runs:
 
 def in_first_section(cylinder: GeneralizedCylinder, count: int, rng: np.random.Generator) -> FloatArray:
     """Starts (count, 3) evenly spread over the section of station 0, as far as its polygon reaches [m]."""
-    return _on_sections(cylinder, np.zeros(count, dtype=np.intp), rng)
+    return on_sections(cylinder, np.zeros(count, dtype=np.intp), rng)
 
 
 def anywhere(cylinder: GeneralizedCylinder, count: int, rng: np.random.Generator) -> FloatArray:
@@ -37,7 +38,7 @@ def anywhere(cylinder: GeneralizedCylinder, count: int, rng: np.random.Generator
     length = rng.uniform(0.0, cylinder.arc_length[-1], count)
     place = np.interp(length, cylinder.arc_length, np.arange(len(cylinder.directrix)))
     before = np.minimum(place.astype(np.intp), len(cylinder.directrix) - 2)
-    here = _on_sections(cylinder, before, rng)
+    here = on_sections(cylinder, before, rng)
     there = _along(cylinder, here, before)
     starts = here + (place - before)[:, None] * (there - here)
     # What lies between two sections is not exactly what is inside of them: near a boundary it may be out.
@@ -70,14 +71,6 @@ def inside(cylinder: GeneralizedCylinder, positions: FloatArray, stations: Float
     rest = ~held & ~waiting
     held[rest] = cylinder.contains(positions[rest])
     return np.where(waiting, held[:, :1], held)
-
-
-def _on_sections(cylinder: GeneralizedCylinder, stations: np.ndarray, rng: np.random.Generator) -> FloatArray:
-    angles = rng.uniform(0.0, 2.0 * np.pi, len(stations))
-    ratios = np.sqrt(rng.uniform(0.0, 1.0, len(stations)))
-    away = ratios * radius_at(cylinder.radii, stations, angles)
-    local = away[:, None] * np.stack((np.cos(angles), np.sin(angles)), axis=1)
-    return cylinder.directrix[stations] + np.einsum("sj,skj->sk", local, cylinder.frames[stations, :, 1:])
 
 
 def _along(cylinder: GeneralizedCylinder, points: FloatArray, stations: np.ndarray) -> FloatArray:

@@ -19,6 +19,7 @@ from scipy.spatial.transform import Rotation
 from app import skills
 from app.model import STIFFNESS
 from app.resources import static_folder
+from app.study.measures import in_ball, shape_change
 from gc_core import (
     Demonstration,
     GeneralizedCylinder,
@@ -87,9 +88,7 @@ def random_landmarks(
     """Start and goal as they are, moved, and the targets (2, 3); with odd seeds they are frames."""
     rng = np.random.default_rng(seed)
     ends = cylinder.directrix[[0, -1]]
-    away = rng.normal(size=(2, 3))
-    away *= FARTHEST * rng.uniform(0.0, 1.0, (2, 1)) ** (1.0 / 3.0) / np.linalg.norm(away, axis=1)[:, None]
-    targets = ends + away
+    targets = ends + in_ball(2, FARTHEST, rng)
     if seed % 2 == 0:
         return [Landmark(end) for end in ends], [Landmark(target) for target in targets], targets
     axis = rng.normal(size=(2, 3))
@@ -131,17 +130,6 @@ def folded(cylinder: GeneralizedCylinder, spline: ThinPlateSpline) -> np.ndarray
     places = np.concatenate((cylinder.directrix[:, None], cylinder.surface()), axis=1)
     determinant = np.linalg.det(spline.jacobian(places.reshape(-1, 3))).reshape(places.shape[:2])
     return (determinant <= 0.0).any(axis=1)
-
-
-def shape_change(one: FloatArray, other: FloatArray) -> float:
-    """Root mean square distance of curves (N, 3) after the best similarity, by the other's length [-]."""
-    a, b = one - one.mean(axis=0), other - other.mean(axis=0)
-    left, sizes, right = np.linalg.svd(b.T @ a)
-    sign = np.array([1.0, 1.0, np.sign(np.linalg.det(left @ right))])
-    scale = float((sizes * sign).sum() / (a**2).sum())
-    rest = b - scale * a @ (left @ np.diag(sign) @ right).T
-    length = float(np.linalg.norm(np.diff(other, axis=0), axis=1).sum())
-    return float(np.sqrt((rest**2).sum(axis=1).mean())) / length
 
 
 HEADINGS: Final = (
