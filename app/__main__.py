@@ -72,6 +72,11 @@ def main(args: Sequence[str] | None = None) -> None:
     arguments = list(sys.argv[1:] if args is None else args)
     if not arguments or (arguments[0].startswith("-") and arguments[0] not in ("-h", "--help")):
         arguments = ["serve", *arguments]
+    if arguments[0] in ("skills", "-h", "--help"):
+        # The database takes a third of a second to import, which the other commands need not.
+        from app.skill_commands import cli as skills_cli  # noqa: PLC0415
+
+        cli.command(skills_cli, name="skills", help="Saved and built-in skills, by name.")
     try:
         cli.cli(prog="gc-teach", description=DESCRIPTION, args=arguments)
     except GcError as error:

@@ -11,7 +11,17 @@ from app.files.errors import (
 )
 from app.files.reading import Reading
 from app.files.recording import MOST_DEMONSTRATIONS, MOST_SAMPLES, Unit
-from app.files.registry import FORMATTERS, LARGEST_FILE, PARSERS, inspect, inspect_bytes, put, read, write
+from app.files.registry import (
+    FORMATTERS,
+    LARGEST_FILE,
+    PARSERS,
+    content_of,
+    inspect,
+    inspect_bytes,
+    put,
+    read,
+    write,
+)
 from app.files.skill_format import SUFFIX, format_skill, open_skill
 from app.files.tube_format import format_glb, format_tube, tube_mesh
 from app.files.units import FRAMES, IN_FRONT, METRES, Frame
@@ -36,6 +46,7 @@ __all__ = [
     "Unit",
     "UnknownFormatError",
     "UnreadableError",
+    "content_of",
     "format_glb",
     "format_skill",
     "format_tube",

@@ -54,7 +54,7 @@ def inspect(path: str | Path) -> Reading:
     if path.is_dir():
         raise NoFileError(path.name, f"{path} is a folder. Choose one of the files in it.")
     _known(path.name, PARSERS)
-    return inspect_bytes(path.name, _content(path))
+    return inspect_bytes(path.name, content_of(path))
 
 
 def inspect_bytes(name: str, content: bytes) -> Reading:
@@ -140,7 +140,14 @@ def _check_size(name: str, size: int) -> None:
         raise TooLargeError(name, "has", size, LARGEST_FILE, unit="bytes")
 
 
-def _content(path: Path) -> bytes:
+def content_of(path: Path) -> bytes:
+    """Read a file that is not too large.
+
+    Raises
+    ------
+    FileError
+        If it is missing, larger than ``LARGEST_FILE``, or may not be read.
+    """
     try:
         if not path.is_file():
             raise NoFileError(path.name, f"There is no file {path}. Check the name and the folder.")
