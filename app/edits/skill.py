@@ -25,7 +25,8 @@ def edit(document: Document, f: Callable[[Document], Document]) -> Document:
     edited = f(document)
     if edited is document or not document.built_in:
         return edited
-    title = edited.title if edited.title != document.title else f"My {document.title.lower().removeprefix('the ')}"
+    own = f"My {document.title.lower().removeprefix('the ')}"
+    title = edited.title if edited.title != document.title else own
     return replace(edited, title=title, built_in=False)
 
 

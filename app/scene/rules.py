@@ -15,7 +15,7 @@ from app.document import FloatArray
 from app.scene.geometry import Faces, Vertices, across
 from app.scene.nodes import Line, Mesh
 from app.scene.polyline import evenly
-from app.scene.style import PLANE_OPACITY, REFINED
+from app.scene.style import REFINED
 from app.store import State
 from gc_core import Constraint
 
@@ -32,9 +32,8 @@ class Rules:
     """``/rules/planes`` and ``/rules/arrows``."""
 
     def __init__(self, api: viser.SceneApi) -> None:
-        self._planes = Mesh(api, "/rules/planes", color=REFINED, opacity=PLANE_OPACITY, side="double")
-        self._planes.show(*quads(np.zeros((1, 3)), np.eye(3)[:1]))  # early, see `Tube`
-        self._planes.hide()
+        # Solid: a translucent mesh inside the translucent tube is not seen at all.
+        self._planes = Mesh(api, "/rules/planes", color=REFINED, side="double")
         self._arrows = Line(api, "/rules/arrows", color=REFINED, thickness=ARROW_WIDTH)
         self._changed = Changed()
 

@@ -57,9 +57,9 @@ class Scene:
         """
         self._eye = Eye()
         self._parts: tuple[Part, ...] = (
-            Rules(api),  # before the tube, whose near side would hide them
-            Tube(api),  # before what can be picked, see there
+            Tube(api),  # first, see there
             FormerTube(api),
+            Rules(api),
             ArmFrames(api, arm),
             Directrix(api, actions),
             Section(api),

@@ -39,8 +39,6 @@ SECTION_OF_TABLE: Final[Color] = (192, 199, 208)
 TUBE_OPACITY: Final = 0.32
 FORMER_OPACITY: Final = 0.12
 """Of the tube as it was taught, while landmarks are moved."""
-PLANE_OPACITY: Final = 0.25
-"""Of the planes of rules."""
 
 THIN: Final = 2.0
 THICK: Final = 4.0

@@ -7,12 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app import edits
 from app.arm.protocol import Shortfall
 from app.document import Place, Shown
 from app.model import learn
 from app.player import station_at
 from app.scene.cylinder import AT_REST, WHILE_DRAGGING
 from app.store import State
+from gc_core import Constraint
 from tests.scene.conftest import Stage, document, preview, state
 
 NAMES = {
@@ -166,6 +168,17 @@ def test_a_muted_demonstration_stays_and_is_dashed(stage: Stage) -> None:
 
     assert shown(stage, "/demonstrations/0")
     assert np.linalg.norm(dashes[1:, 0] - dashes[:-1, 1], axis=1).min() > 0.005
+
+
+def test_the_planes_of_a_rule_are_solid_because_the_tube_hides_what_is_translucent(stage: Stage) -> None:
+    run = state().model.runs[0].free
+    pressed = run.positions - 0.03 * np.sin(np.linspace(0.0, np.pi, len(run.positions)))[:, None] * [0, 0, 1]
+    rule = Constraint.from_correction(run, replace(run, positions=pressed))
+    ruled = edits.add_rule(document(), rule)
+    stage.draw(replace(state(), document=ruled, model=learn(ruled, state().model)))
+
+    assert shown(stage, "/rules/planes")
+    assert stage.client.node("/rules/planes").props["opacity"] is None
 
 
 def test_a_run_changed_by_rules_is_twice_as_wide_with_dots_and_its_former_path(stage: Stage) -> None:
