@@ -10,7 +10,7 @@ from app.document import FloatArray
 from app.model import Model, Run
 from gc_core import Constraint
 from gc_core.arrays import remembered
-from gc_core.constraints import planes_at
+from gc_core.constraints import planes_along
 
 BITES: Final = 1e-6
 """A run this far behind a plane is held by it [m]."""
@@ -68,8 +68,7 @@ def _bite(index: int, constraint: Constraint | None, runs: tuple[Run, ...]) -> B
     for number, run in enumerate(runs):
         if constraint is None or run.reproduction is run.free:
             continue
-        stations = run.free.stations
-        planes = planes_at(constraint, stations / max(float(stations[-1]), 1.0))
+        planes = planes_along(constraint, run.free.stations, run.free.positions)
         behind = planes.behind(run.free.positions)
         there = behind > BITES
         if there.any():

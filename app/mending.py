@@ -10,7 +10,11 @@ from gc_core.arrays import BoolArray, FloatArray, interpolated, remembered
 from gc_core.frames import arc_length, smooth
 
 STILL_REACH: Final = 0.003
-"""A hand that stays within this of where it is does not move on [m]."""
+"""A hand that stays within this of where it is does not move on, ... [m]"""
+SLOW: Final = 0.25
+"""... or within this part of the way that it goes in that time elsewhere, where that is less [-]."""
+CREEP: Final = 0.02
+"""A hand that gets somewhere in the end, at least this part as fast as elsewhere, is slow: no pause [-]."""
 STILL: Final = 0.6
 """Standing still for less is no pause, but care [s]."""
 CHECKS: Final = 20
@@ -45,7 +49,11 @@ def pauses(demonstration: Demonstration) -> tuple[Pause, ...]:
     ends = np.searchsorted(times, times[begins] + STILL + 1e-9, side="right") - 1
     apart = np.flatnonzero(begins[1:] > ends[:-1])
     spans = zip(np.append(begins[:1], begins[1:][apart]), np.append(ends[:-1][apart], ends[-1:]), strict=True)
-    found = [_pause(demonstration, int(first), int(last)) for first, last in spans]
+    found = [
+        _pause(demonstration, int(first), int(last))
+        for first, last in spans
+        if not _creeps(demonstration, int(first), int(last))
+    ]
     # Where a recording has a gap nobody knows what the hand did.
     return tuple(pause for pause in found if pause.last > pause.first and not _grips(demonstration, pause))
 
@@ -136,13 +144,29 @@ def tremble(demonstration: Demonstration, samples: int = 200) -> float:
 def _still(demonstration: Demonstration) -> BoolArray:
     """Samples (T,) after which the hand stays where it is for the time of a pause."""
     times, positions = demonstration.times, demonstration.positions
-    still = times + STILL <= times[-1] + 1e-9
+    still, reach = times + STILL <= times[-1] + 1e-9, min(STILL_REACH, SLOW * _usual_way(demonstration))
     for check in range(1, CHECKS + 1):
         until = times + STILL * check / CHECKS + 1e-9
         then = np.searchsorted(times, until, side="right") - 1
         away = positions[then] - positions
-        still &= np.einsum("ij,ij->i", away, away) <= STILL_REACH**2
+        still &= np.einsum("ij,ij->i", away, away) <= reach**2
     return still
+
+
+def _usual_way(demonstration: Demonstration) -> float:
+    """How far the hand goes, where it moves, in the time of a pause [m]."""
+    times, positions = demonstration.times, demonstration.positions
+    then = np.minimum(np.searchsorted(times, times + STILL), len(times) - 1)
+    ways = np.linalg.norm(positions[then] - positions, axis=1)
+    return float(np.median(ways[ways >= SLOW * ways.max()]))
+
+
+def _creeps(demonstration: Demonstration, first: int, last: int) -> bool:
+    """Whether the hand gets somewhere in what seems a pause, slow as it is."""
+    times, positions = demonstration.times, demonstration.positions[first : last + 1]
+    far = float(np.linalg.norm(positions - positions[0], axis=1).max())
+    fast = CREEP * _usual_way(demonstration) / STILL
+    return far > 2.0 * STILL_REACH and far > fast * float(times[last] - times[first])
 
 
 def _pause(demonstration: Demonstration, first: int, last: int) -> Pause:

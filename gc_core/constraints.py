@@ -183,18 +183,12 @@ def constrain(reproduction: Reproduction, constraints: Sequence[Constraint]) -> 
     """
     if not constraints:
         return reproduction
-    parts = _parts(reproduction.stations)
-    planes = [planes_at(constraint, parts) for constraint in constraints]
     single = reproduction.positions.ndim == 2
     runs = reproduction.positions[None] if single else reproduction.positions
     moved = np.empty_like(runs)
     for index, run in enumerate(runs):
-        late = _waiting(run)
-        own = planes
-        if late:  # A run that joins later waits at its start, where rules for before do not concern it.
-            joined = np.maximum(parts, parts[late])
-            own = [planes_at(constraint, joined) for constraint in constraints]
-        moved[index] = _moved(run, own)
+        planes = [planes_along(constraint, reproduction.stations, run) for constraint in constraints]
+        moved[index] = _moved(run, planes)
     if np.array_equal(moved, runs):
         return reproduction
     return replace(reproduction, positions=moved[0] if single else moved)
@@ -225,6 +219,26 @@ def planes_at(constraint: Constraint, parts: FloatArray) -> Planes:
     active = (lengths >= LEAST_CORRECTION) & (size > 0.0) & (parts >= known[0] - SAME_PART)
     normals = np.where(active[:, None], moved / np.where(size > 0.0, size, 1.0)[:, None], 0.0)
     return Planes(points, normals, lengths, active)
+
+
+def planes_along(constraint: Constraint, stations: FloatArray, run: FloatArray) -> Planes:
+    """Planes of a rule at the samples of one run.
+
+    Parameters
+    ----------
+    constraint : Constraint
+    stations : (K,) array
+        Of the samples; the last is the last of the skill [-].
+    run : (K, 3) array
+        [m].
+
+    Returns
+    -------
+    Planes
+        A run that joins later than others waits at its start, where rules for before do not concern it.
+    """
+    parts = _parts(stations)
+    return planes_at(constraint, np.maximum(parts, parts[_waiting(run)]) if len(run) else parts)
 
 
 def _path(run: Reproduction | FloatArray) -> FloatArray:

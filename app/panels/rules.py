@@ -121,8 +121,11 @@ class RuleRow:
 
     def _add_name(self, gui: viser.GuiApi) -> Binding[str]:
         def write(name: str) -> None:
-            change = partial(edits.rename_rule, index=self._index, name=name)
-            self._actions.edit(change, "rename a rule", f"rename rule {self._index}")
+            if (rule := self._rule) is not None:
+                rename = partial(edits.rename_rule, name=name)
+                self._actions.edit(
+                    partial(_at, rule, rename), f"rename {rule.name}", f"rename rule {self._index}"
+                )
 
         return name_field(gui, "Rule's name", lambda state: state.document.rules[self._index].name, write)
 
@@ -135,8 +138,8 @@ class RuleRow:
 
 
 def _at(rule: Rule, change: Callable[[Document, int], Document], document: Document) -> Document:
-    """Change the rule that was shown, wherever it is by now."""
+    """Change the rule that was shown, wherever it is by now and whatever it is called."""
     for index, candidate in enumerate(document.rules):
-        if candidate is rule:
+        if candidate.constraint is rule.constraint:
             return change(document, index)
     return document

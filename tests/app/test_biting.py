@@ -11,10 +11,10 @@ from app import biting, edits
 from app.arm import PlanarArm
 from app.desk import Desk
 from app.document import Document
-from app.model import Model, learn
+from app.model import Model, Run, learn
 from app.panels.rules import overview
 from app.scene.rules import MOST_ARROWS, MOST_PLANES, arrows, quads, thinned
-from gc_core import Constraint
+from gc_core import Constraint, constrain, reproduce
 from tests.app.makers import FIRST_START, taught
 from tests.panels.desk import state_of
 
@@ -47,6 +47,21 @@ def test_a_rule_bites_the_run_that_would_pass_it_where_it_is_held() -> None:
     assert bite.depth == pytest.approx(0.02, rel=1e-2)
     assert gaps.max() == 0.0
     np.testing.assert_allclose(bite.normals, np.broadcast_to(DOWN, bite.normals.shape), atol=1e-9)
+
+
+def test_a_rule_for_the_way_before_a_run_joins_does_not_bite_while_it_waits() -> None:
+    document = ruled(two_runs(), 0.02)
+    model = learn(document)
+    cylinder, constraints = model.cylinder, model.constraints
+    both = reproduce(cylinder, np.array([FIRST_START, cylinder.directrix[40] - 0.03 * DOWN]))
+    late = replace(both, positions=both.positions[1], ratios=both.ratios[1], start_inside=True)
+    run = Run(late.positions[0], late, constrain(late, constraints), constraints)
+    (bite,) = biting.bites(replace(model, runs=(run,)))
+    moved = np.linalg.norm(run.reproduction.positions - late.positions, axis=1)
+
+    assert (late.positions[:30] == late.positions[0]).all()
+    assert bite.depth <= moved.max() + 1e-9
+    assert len(bite.places) <= (moved > 0.0).sum()
 
 
 def test_a_rule_that_touches_no_run_says_so() -> None:

@@ -44,6 +44,24 @@ def test_a_gap_in_a_recording_is_no_pause() -> None:
     assert pauses(replace(whole, times=later)) == ()
 
 
+@pytest.mark.parametrize("usual", [0.005, 0.01, 0.05, 0.15])
+@pytest.mark.parametrize("slow", [0.003, 0.0045])
+def test_a_hand_that_creeps_on_is_slow_and_does_not_stand_still(usual: float, slow: float) -> None:
+    speeds = np.repeat([usual, slow, usual], round(4.0 * RATE))
+    shown = recording(np.outer(np.cumsum(speeds) / RATE, [1.0, 0.0, 0.0]))
+
+    assert pauses(shown) == ()
+    assert trimmed(shown) is shown
+
+
+def test_a_hand_that_sinks_a_little_while_it_waits_stands_still() -> None:
+    sunk = np.cumsum(np.full((250, 1), 0.001 / RATE), axis=0) * [0.0, 0.0, -1.0]
+    path = reach()
+    shown = recording(np.concatenate((path[:100], path[99] + sunk, path[100:] + sunk[-1])))
+
+    assert [pause.seconds > 4.5 for pause in pauses(shown)] == [True]
+
+
 def test_a_motion_without_a_stop_has_no_pause() -> None:
     shown = recording(reach())
 

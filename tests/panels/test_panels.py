@@ -351,6 +351,18 @@ def test_the_width_of_a_pull_is_only_looked_at(bench: Bench) -> None:
     assert bench.notes.next() == ("look", (("pull_width", 0.35),))
 
 
+def test_a_name_reaches_the_rule_that_it_was_typed_for_whatever_was_deleted_meanwhile(bench: Bench) -> None:
+    state = state_of(taught())
+    run = np.array(state.model.runs[0].reproduction.positions)
+    rule = Constraint.from_correction(run, run - [0.0, 0.0, 0.05])
+    other = Constraint.from_correction(run, run - [0.0, 0.0, -0.05])
+    bench.draw(state_of(edits.add_rule(state.document, rule, "Low"), state.model))
+    bench.client.set_gui("Rule's name", "Lower")
+    both = edits.add_rule(edits.add_rule(state.document, other, "Lid"), rule, "Low")
+
+    assert [rule.name for rule in bench.edited(both).rules] == ["Lid", "Lower"]
+
+
 def test_a_rule_is_switched_off_and_on_and_says_what_it_does(bench: Bench) -> None:
     state = state_of(taught())
     run = np.array(state.model.runs[0].reproduction.positions)
