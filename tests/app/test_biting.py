@@ -50,7 +50,7 @@ def test_a_rule_bites_the_run_that_would_pass_it_where_it_is_held() -> None:
 
 
 def test_a_rule_for_the_way_before_a_run_joins_does_not_bite_while_it_waits() -> None:
-    document = ruled(two_runs(), 0.02)
+    document = ruled(two_runs(), -0.02)
     model = learn(document)
     cylinder, constraints = model.cylinder, model.constraints
     both = reproduce(cylinder, np.array([FIRST_START, cylinder.directrix[40] - 0.03 * DOWN]))
