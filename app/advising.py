@@ -5,9 +5,10 @@ from functools import partial
 from typing import Final
 
 from app import edits, quality, suggestions
+from app.actions import Actions
 from app.document import Document
 from app.model import Model
-from app.quality import Fault, Fix, Note
+from app.quality import Fault, Fix, Note, Postures
 from app.suggestions import Suggestion
 from gc_core import Demonstration
 from gc_core.arrays import remembered
@@ -15,9 +16,11 @@ from gc_core.arrays import remembered
 FIX_WORDS: Final[dict[Fix, str]] = {
     "trim": "Cut the pauses out",
     "smooth": "Smooth it",
-    "redo": "Mute it and show it again",
+    "redo": "Show it again",
 }
 """What the button says that does it."""
+KEEP: Final = "Keep the old one"
+"""What it says while its demonstration waits to be shown again."""
 FAULT_WORDS: Final[dict[Fault, str]] = {
     "pause": "stands still",
     "shaky": "trembles",
@@ -45,33 +48,41 @@ class Advice:
 
 
 @remembered
-def advice(model: Model) -> Advice:
+def advice(model: Model, postures: Postures | None = None) -> Advice:
     """Look for what would help; takes some milliseconds, so not while something is pulled."""
     if model.taught is None or model.cylinder is None:
         return Advice()
     first: dict[int, Note] = {}
-    for note in quality.notes(model.demonstrations, model.taught):
+    for note in quality.notes(model.demonstrations, model.taught, postures):
         first.setdefault(note.index, note)
     noted = tuple(Noted(model.demonstrations[index], note) for index, note in first.items())
     return Advice(noted, suggestions.suggestion(model.cylinder))
 
 
-def note_of(found: Advice, demonstration: Demonstration) -> Note | None:
+def note_of(found: Advice, demonstration: Demonstration) -> Noted | None:
     """Give what may be wrong with a demonstration."""
-    return next((one.note for one in found.notes if one.demonstration is demonstration), None)
+    return next((one for one in found.notes if one.demonstration is demonstration), None)
+
+
+def said(noted: Noted, waits: Demonstration | None) -> tuple[str, str]:
+    """Say what may be wrong, and what the button does; or that the next recording takes its place."""
+    if waits is noted.demonstration:
+        return f"Pull the hand: what you show next takes the place of {noted.demonstration.name}.", KEEP
+    return noted.note.sentence, FIX_WORDS[noted.note.fix]
+
+
+def press(actions: Actions, noted: Noted, waits: Demonstration | None) -> None:
+    """Do what the button of a note says."""
+    shown, fix = noted.demonstration, noted.note.fix
+    if fix == "redo":
+        actions.look(redo=None if waits is shown else shown)
+    else:
+        actions.edit(partial(fixed, demonstration=shown, fix=fix), f"{fix} {shown.name}")
 
 
 def fixed(document: Document, demonstration: Demonstration, fix: Fix) -> Document:
-    """Do what a note proposes, wherever the demonstration is by now; to show it again, it is muted."""
+    """Do what a note proposes, wherever the demonstration is by now."""
     for index, shown in enumerate(document.demonstrations):
         if shown.demonstration is demonstration:
-            if fix == "redo":
-                return edits.mute_demonstration(document, index, True)
             return edits.replace_demonstration(document, index, quality.mended(demonstration, fix))
     return document
-
-
-def fixing(demonstration: Demonstration, fix: Fix) -> tuple[partial[Document], str]:
-    """Give the edit that does what a note proposes, and the name of its undo step."""
-    verb = {"trim": "trim", "smooth": "smooth", "redo": "mute"}[fix]
-    return partial(fixed, demonstration=demonstration, fix=fix), f"{verb} {demonstration.name}"

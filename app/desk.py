@@ -261,7 +261,7 @@ class Desk:
         self.look(thing=gesture.thing_held(drag.node))
         if drag.node.startswith("/start/"):
             self.stage.cue(int(drag.node.rpartition("/")[2]), self.model, playing=False)
-        held = Grasp(pull, gesture.begin(drag), self.model, drag.time)
+        held = Grasp(pull, gesture.begin(drag), self.model, drag.time, self.view.redo)
         held.aim(drag)
         return held
 

@@ -146,6 +146,8 @@ class View:
     """How hard the hand is to pull aside then."""
     suggest: bool = True
     """Say and show what would help most next."""
+    redo: Demonstration | None = None
+    """The demonstration whose place the next recording takes."""
     rule: int | None = -1
     """Place in the list of the rule whose arrows are shown; -1: the newest; None: of none."""
     placing: LandmarkKind | ThingKind | None = None

@@ -71,8 +71,13 @@ def _inverse(jacobian: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.inv(jacobian), dtype=np.float64)
 
 
-def added(document: Document, shown: TakenBack) -> Document:
-    """Add a demonstration as it is kept."""
+def added(document: Document, shown: TakenBack, instead_of: Demonstration | None = None) -> Document:
+    """Add a demonstration as it is kept, or put it, learned from, in the place and name of another."""
+    for index, former in enumerate(document.demonstrations):
+        if former.demonstration is instead_of:
+            made = replace(shown.demonstration, name=former.demonstration.name)
+            document = edits.replace_demonstration(document, index, made)
+            return edits.mute_demonstration(document, index, shown.muted)
     document = edits.add_demonstrations(document, [shown.demonstration])
     return edits.mute_demonstration(document, len(document.demonstrations) - 1, shown.muted)
 

@@ -12,7 +12,7 @@ from app.handpull import HandPull
 from app.linepull import LinePull
 from app.model import Model
 from app.proposal import Correction
-from gc_core import GcError
+from gc_core import Demonstration, GcError
 
 
 @dataclass(eq=False)
@@ -25,6 +25,8 @@ class Grasp:
     """What was shown when it was grabbed."""
     followed: float
     """When the last event arrived [s]."""
+    replaces: Demonstration | None = None
+    """The demonstration whose place a recording takes."""
     ends: float | None = None
     """The button was let go, and at this time the pull is over [s]."""
     problem: str = ""
@@ -101,4 +103,6 @@ class Grasp:
         if not isinstance(self.pull, HandPull):
             return self.pull.apply(document, self.track.displacement)
         part = self.pull.preview(self.before.cylinder)
-        return document if part is None else drawn.added(document, drawn.taken_back(part, self.before))
+        if part is None:
+            return document
+        return drawn.added(document, drawn.taken_back(part, self.before), self.replaces)

@@ -131,7 +131,10 @@ class Leading:
             desk.say(sentences.too_short(part), warning=True)
             return
         shown = drawn.taken_back(drawn.demonstration(part), among)
-        desk.store.edit(lambda d: drawn.added(d, shown), "demonstrate", now=now)
+        former = desk.view.redo
+        name = "demonstrate" if former is None else f"show {former.name} again"
+        desk.store.edit(lambda d: drawn.added(d, shown, former), name, now=now)
+        desk.look(redo=None)
         learned_from = [s.demonstration for s in desk.store.document.demonstrations if not s.muted]
         goal = next((anchor.now for anchor in among.anchors if anchor.kind == "goal"), None)
         said = sentences.demonstrated(part, learned_from, shown, goal)
@@ -202,7 +205,7 @@ class Leading:
         desk.stage.pause()
         pull = desk.take_hand(now, records=records, pointed=False)
         nowhere = np.zeros(3)
-        desk.hold(Grasp(pull, Track(nowhere, nowhere, nowhere), desk.model, -np.inf))
+        desk.hold(Grasp(pull, Track(nowhere, nowhere, nowhere), desk.model, -np.inf, desk.view.redo))
         return pull
 
 

@@ -157,7 +157,7 @@ def _usual_way(demonstration: Demonstration) -> float:
     """How far the hand goes, where it moves, in the time of a pause [m]."""
     times, positions = demonstration.times, demonstration.positions
     then = np.minimum(np.searchsorted(times, times + STILL), len(times) - 1)
-    ways = np.linalg.norm(positions[then] - positions, axis=1)
+    ways = np.asarray(np.linalg.norm(positions[then] - positions, axis=1), dtype=np.float64)
     return float(np.median(ways[ways >= SLOW * ways.max()]))
 
 

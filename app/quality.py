@@ -1,7 +1,7 @@
 """What may be wrong with a demonstration, in words, and what would mend it."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Final, Literal, TypeAlias
 
 import numpy as np
@@ -23,6 +23,18 @@ MARGIN: Final = np.radians(5.0)
 """A joint this near to its limit has hardly any way left [rad]."""
 
 
+@dataclass(frozen=True, eq=False)
+class Postures:
+    """What is known of the arm along demonstrations."""
+
+    lower: FloatArray
+    """(J,) limits of the joints [rad]."""
+    upper: FloatArray
+    """(J,) [rad]."""
+    joints: Mapping[Demonstration, FloatArray] = field(default_factory=dict[Demonstration, FloatArray])
+    """(T, J) at the samples of each [rad]."""
+
+
 @dataclass(frozen=True)
 class Note:
     """One thing that may be wrong with one demonstration."""
@@ -41,8 +53,7 @@ class Note:
 def notes(
     demonstrations: Sequence[Demonstration],
     cylinder: GeneralizedCylinder | None = None,
-    joints: Sequence[FloatArray | None] = (),
-    limits: tuple[FloatArray, FloatArray] | None = None,
+    postures: Postures | None = None,
 ) -> tuple[Note, ...]:
     """Look for what may be wrong with demonstrations.
 
@@ -52,10 +63,8 @@ def notes(
         Those that are learned from.
     cylinder : GeneralizedCylinder, optional
         What was learned from them, for how far they are from each other.
-    joints : sequence of (T, J) arrays or None
-        The arm's joints at the samples of each, where they are known [rad].
-    limits : two (J,) arrays, optional
-        Lower and upper limits of the joints [rad].
+    postures : Postures, optional
+        How the arm holds itself along them, as far as that is known.
 
     Returns
     -------
@@ -66,11 +75,11 @@ def notes(
     found += _shaky(demonstrations)
     if cylinder is not None:
         found += _apart(demonstrations, cylinder)
-    if limits is not None:
+    if postures is not None:
         found += [
-            _at_its_limit(index, shown, path, *limits)
-            for index, (shown, path) in enumerate(zip(demonstrations, joints, strict=False))
-            if path is not None
+            _at_its_limit(index, shown, postures.joints[shown], postures)
+            for index, shown in enumerate(demonstrations)
+            if shown in postures.joints
         ]
     return tuple(sorted((note for note in found if note is not None), key=lambda note: note.index))
 
@@ -144,11 +153,9 @@ def _apart(demonstrations: Sequence[Demonstration], cylinder: GeneralizedCylinde
     return found
 
 
-def _at_its_limit(
-    index: int, shown: Demonstration, joints: FloatArray, lower: FloatArray, upper: FloatArray
-) -> Note | None:
+def _at_its_limit(index: int, shown: Demonstration, joints: FloatArray, postures: Postures) -> Note | None:
     """The joint that comes nearest to its limit, where that is too near."""
-    margins = np.minimum(joints - lower, upper - joints)
+    margins = np.minimum(joints - postures.lower, postures.upper - joints)
     sample, joint = np.unravel_index(int(np.argmin(margins)), margins.shape)
     left = float(margins[sample, joint])
     if left >= MARGIN:

@@ -22,6 +22,7 @@ from app.arm.conditions import Conditions
 from app.arm.protocol import Arm
 from app.desk import Desk
 from app.document import Document, FloatArray
+from app.examining import Examining
 from app.exporting import Exporting
 from app.inquiry import Answer, Inquirer, Inquiry
 from app.library import Library, LibraryError
@@ -83,6 +84,7 @@ class Session:
         self._files = Latest(workshop.workers, self._actor)
         self._shaping = Shaping(workshop.workers, self._actor)
         self.exporting = Exporting(workshop.workers, self._actor, workshop.make_arm)
+        self._examining = Examining(workshop.workers, self._actor, workshop.make_arm)
         self._trials = Trials(workshop.workers, self._actor, workshop.make_arm)
         self._inquirer = Inquirer(Latest(workshop.workers, self._actor), workshop.make_arm)
 
@@ -139,8 +141,7 @@ class Session:
     def _work(self, client: viser.ClientHandle) -> None:
         self._works = client.client_id
         seat = Seat(self, client.client_id)
-        viewer = viewers.working(client, seat, self._arm, self.clock, self.workshop.skills)
-        self._show(viewer)
+        self._show(viewers.working(client, seat, self._arm, self.clock, self.workshop.skills))
 
     def _watch(self, client: viser.ClientHandle) -> None:
         def take_over() -> None:
@@ -230,6 +231,7 @@ class Session:
 
     def _draw(self) -> None:
         state = replace(self._desk.state(), shapes=self._shaping.shapes, parcel=self.exporting.parcel)
+        state = replace(state, postures=self._examining.postures)
         try:
             for viewer in tuple(self._viewers.values()):
                 viewer.draw(state)
@@ -238,6 +240,7 @@ class Session:
             self._inquirer.ask(self._desk.leading.inquiry, self._answer)
             self._plan(state)
             self._shaping.follow(state)
+            self._examining.follow(state)
 
     def _answer(self, inquiry: Inquiry, answer: Answer) -> None:
         self._desk.leading.answered(inquiry, answer, self.clock())

@@ -18,6 +18,7 @@ from app.files import Frame, Unit
 from app.model import Model
 from app.parcel import Parcel
 from app.proposal import Correction, Proposal
+from app.quality import Postures
 from app.shapes import Shapes
 from app.trial import Trial
 from gc_core import Reproduction
@@ -193,6 +194,8 @@ class State:
     """What physics made of a run, if it was asked."""
     shapes: Shapes | None = None
     """The skill in every kind of cross-section; of a former model until those of this one are made."""
+    postures: Postures | None = None
+    """How the arm holds itself along the demonstrations, as far as that is known."""
     stuck: bool = False
     """Whether the hand is, or was when it was let go, where only another posture of the arm comes."""
     saved: bool = True

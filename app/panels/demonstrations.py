@@ -7,12 +7,12 @@ import viser
 
 from app import advising, edits
 from app.actions import Actions
-from app.advising import FAULT_WORDS, FIX_WORDS
-from app.binding import QUIET, Binding, Rows, anything, assign, name_field, on_choice, on_press
+from app.advising import FAULT_WORDS, Noted
+from app.binding import QUIET, Binding, Changed, Rows, anything, assign, name_field, on_choice, on_press
 from app.document import Document, Shown
 from app.panels import words
-from app.quality import Note
 from app.store import State
+from gc_core import Demonstration
 
 TRIM, COPY, DELETE = "Trim", "Duplicate", "Delete"
 STEP = 0.01
@@ -39,7 +39,9 @@ class DemonstrationRow:
     def __init__(self, gui: viser.GuiApi, actions: Actions, index: int) -> None:
         self._actions, self._index = actions, index
         self._shown: Shown | None = None
-        self._note: Note | None = None
+        self._noted: Noted | None = None
+        self._redo: Demonstration | None = None
+        self._changed = Changed()
         self._duration: float = 0.0
         self._keep = (0.0, 0.0)
         self._folder = gui.add_folder(f"Demonstration {index + 1}", expand_by_default=False)
@@ -65,11 +67,11 @@ class DemonstrationRow:
     def draw(self, state: State) -> None:
         """Show the demonstration at this place of the list."""
         shown = state.document.demonstrations[self._index]
-        note = advising.note_of(advising.advice(state.model), shown.demonstration)
-        if shown is not self._shown or note is not self._note:
-            self._note = note
+        self._noted = advising.note_of(advising.advice(state.model, state.postures), shown.demonstration)
+        self._redo = state.view.redo
+        if self._changed(shown, self._noted, self._redo):
             self._show_facts(shown)
-            self._show_note(note)
+            self._show_note()
         self._use.draw(state)
         self._name.draw(state)
         self._kept.draw(state)
@@ -82,19 +84,20 @@ class DemonstrationRow:
             self._duration, self._keep = duration, (0.0, duration)
             assign(self._part, max=duration)
         muted = " · muted" if shown.muted else ""
-        wrong = "" if self._note is None else f" · {FAULT_WORDS[self._note.fault]}"
+        wrong = "" if self._noted is None else f" · {FAULT_WORDS[self._noted.note.fault]}"
         assign(self._folder, label=f"{demonstration.name} · {words.seconds(duration)}{muted}{wrong}")
 
-    def _show_note(self, note: Note | None) -> None:
-        assign(self._wrong, visible=note is not None)
-        assign(self._fix, visible=note is not None)
-        if note is not None:
-            assign(self._wrong, content=words.note(words.escape(note.sentence)))
-            assign(self._fix, label=FIX_WORDS[note.fix])
+    def _show_note(self) -> None:
+        assign(self._wrong, visible=self._noted is not None)
+        assign(self._fix, visible=self._noted is not None)
+        if self._noted is not None:
+            sentence, label = advising.said(self._noted, self._redo)
+            assign(self._wrong, content=words.note(words.escape(sentence)))
+            assign(self._fix, label=label)
 
     def _mend(self) -> None:
-        if self._shown is not None and self._note is not None:
-            self._actions.edit(*advising.fixing(self._shown.demonstration, self._note.fix))
+        if self._noted is not None:
+            advising.press(self._actions, self._noted, self._redo)
 
     def _add_use(self, gui: viser.GuiApi) -> Binding[bool]:
         widget = gui.add_checkbox(

@@ -6,10 +6,11 @@ import viser
 
 from app import advising
 from app.actions import Actions
-from app.advising import FIX_WORDS, Noted
+from app.advising import Noted
 from app.binding import QUIET, Binding, Changed, anything, assign, on_press
 from app.panels import words
 from app.store import State
+from gc_core import Demonstration
 
 LABEL: Final = "Suggest what to do next"
 
@@ -20,6 +21,7 @@ class SuggestionPanel:
     def __init__(self, gui: viser.GuiApi, actions: Actions) -> None:
         self._actions = actions
         self._noted: Noted | None = None
+        self._redo: Demonstration | None = None
         self._on: Binding[bool] = Binding(
             gui.add_checkbox(LABEL, True, hint="A disc in the scene shows where one more would help most."),
             read=lambda state: state.view.suggest,
@@ -34,17 +36,21 @@ class SuggestionPanel:
     def draw(self, state: State) -> None:
         """Say what would help, once nothing is pulled."""
         self._on.draw(state)
-        if state.dragging is not None or not self._changed(state.model, state.view.suggest):
+        view = state.view
+        if state.dragging is not None or not self._changed(
+            state.model, state.postures, view.suggest, view.redo
+        ):
             return
-        found = advising.advice(state.model) if state.view.suggest else advising.Advice()
+        self._redo = view.redo
+        found = advising.advice(state.model, state.postures) if view.suggest else advising.Advice()
         self._noted = found.notes[0] if found.notes else None
         said = "" if found.suggestion is None else found.suggestion.sentence
         if self._noted is not None:
-            said = self._noted.note.sentence
-            assign(self._fix, label=FIX_WORDS[self._noted.note.fix])
+            said, label = advising.said(self._noted, view.redo)
+            assign(self._fix, label=label)
         assign(self._said, content=words.note(words.escape(said)) if said else "")
         assign(self._fix, visible=self._noted is not None)
 
     def _press(self) -> None:
         if self._noted is not None:
-            self._actions.edit(*advising.fixing(self._noted.demonstration, self._noted.note.fix))
+            advising.press(self._actions, self._noted, self._redo)

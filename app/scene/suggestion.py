@@ -41,7 +41,7 @@ class SuggestionDisc:
             return
         if state.model is not self._model:
             self._model = state.model
-            self._put(advising.advice(state.model).suggestion, state.model)
+            self._put(advising.advice(state.model, state.postures).suggestion, state.model)
         if self._suggestion is None:
             self._disc.hide()
             return

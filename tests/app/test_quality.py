@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from app.files import read
-from app.quality import Note, mended, notes
+from app.quality import Note, Postures, mended, notes
 from gc_core import Demonstration, encode
 from tests.helpers_data import POSE_SETS, load
 
@@ -78,10 +78,10 @@ def test_what_must_be_shown_again_is_not_changed() -> None:
 
 
 def test_a_joint_near_its_limit_is_named_with_the_moment() -> None:
-    limits = (np.array([-3.0, -1.0]), np.array([3.0, 1.0]))
     joints = np.zeros((len(GOOD[1].times), 2))
     joints[40, 1] = 0.97
-    found = notes(GOOD, joints=[None, joints], limits=limits)
+    postures = Postures(np.array([-3.0, -1.0]), np.array([3.0, 1.0]), {GOOD[1]: joints})
+    found = notes(GOOD, postures=postures)
 
     (note,) = found
     assert (note.index, note.fault, note.fix) == (1, "joint_limit", "redo")

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
-from app import advising, edits
+from app import advising, drawn, edits
+from app.desk import Desk
 from app.document import Document
 from app.model import learn
+from app.quality import Postures
 from app.scene.suggestion import RADIUS, disc, wanted
 from gc_core import Demonstration
 from tests.app.makers import Mouse, desk_of, taught
@@ -35,29 +38,65 @@ def test_a_pause_is_noted_and_cut_out_in_one_undo_step() -> None:
     paused = desk.store.document.demonstrations[1].demonstration
     note = advising.note_of(found(desk.store.document), paused)
     assert note is not None
-    desk.edit(*advising.fixing(paused, note.fix), now=1.0)
+    desk.edit(partial(advising.fixed, demonstration=paused, fix=note.note.fix), "trim", now=1.0)
     mended = desk.store.document
 
-    assert note.fault == "pause"
+    assert note.note.fault == "pause"
     assert advising.note_of(found(mended), mended.demonstrations[1].demonstration) is None
     desk.undo(2.0)
     assert desk.store.document.demonstrations[1].demonstration is paused
 
 
-def test_showing_again_begins_with_muting() -> None:
-    document = taught()
-    change, name = advising.fixing(document.demonstrations[0].demonstration, "redo")
+def again(pulled: bool) -> tuple[Desk, Demonstration, Mouse]:
+    """Somebody wants to show the first demonstration again, and does."""
+    desk = desk_of()
+    former = desk.store.document.demonstrations[0].demonstration
+    desk.look(redo=former)
+    mouse = Mouse(desk)
+    mouse.press("/hand")
+    for _ in range(20):
+        mouse.move((0.01, 0.0, -0.01))
+    if pulled:
+        mouse.release()
+        mouse.wait(0.4)
+    return desk, former, mouse
 
-    assert [shown.muted for shown in change(document).demonstrations] == [True, False, False]
-    assert name == "mute Reach 1"
+
+def test_what_is_shown_again_takes_the_place_of_the_old_one_in_one_undo_step() -> None:
+    desk, former, mouse = again(pulled=True)
+    after, waits = desk.store.document, desk.view.redo
+    names = [shown.demonstration.name for shown in after.demonstrations]
+    desk.undo(mouse.now)
+
+    assert names == ["Reach 1", "Reach 2", "Reach 3"]
+    assert after.demonstrations[0].demonstration is not former
+    assert waits is None
+    assert desk.store.document.demonstrations[0].demonstration is former
+    assert desk.store.undo_name is None
+
+
+def test_while_it_is_shown_again_the_tube_is_learned_without_the_old_one() -> None:
+    desk, former, _ = again(pulled=False)
+    model = desk.state().model
+
+    assert len(model.demonstrations) == 3
+    assert former not in model.demonstrations
+
+
+def test_a_recording_joins_the_others_when_what_was_to_be_shown_again_is_gone() -> None:
+    document = taught()
+    gone = Demonstration(document.demonstrations[0].demonstration.times, np.eye(60, 3))
+    kept = drawn.added(document, drawn.TakenBack(gone), instead_of=gone)
+
+    assert len(kept.demonstrations) == 4
 
 
 def test_a_fix_of_what_is_gone_changes_nothing() -> None:
     document = taught()
-    change, _ = advising.fixing(document.demonstrations[0].demonstration, "trim")
+    gone = document.demonstrations[0].demonstration
     without = edits.delete_demonstration(document, 0)
 
-    assert change(without) is without
+    assert advising.fixed(without, gone, "trim") is without
 
 
 def test_nothing_taught_needs_no_advice() -> None:
@@ -104,6 +143,28 @@ def test_one_thing_is_suggested_and_done_by_its_button(bench: Bench) -> None:
     assert len(buttons) == 2  # as the one suggestion, and beside its demonstration
     assert "Slow one stands still for 1." in said
     assert max(one.times[-1] for one in made) < slow.times[-1] - 0.5
+
+
+def press_first(bench: Bench, label: str) -> None:
+    """Press the first of the buttons that say so."""
+    button = next(e for e in bench.client.gui if e.label == label)
+    bench.client.send("GuiUpdateMessage", uuid=button.uuid, updates={"value": True})
+
+
+def test_the_button_of_what_must_be_shown_again_waits_for_it_and_can_be_taken_back(bench: Bench) -> None:
+    document = reaching()
+    one = document.demonstrations[0].demonstration
+    tight = Postures(np.full(6, -0.01), np.full(6, 0.01), {one: np.zeros((len(one.times), 6))})
+    state = bench.draw(replace(state_of(document), postures=tight))
+    press_first(bench, "Show it again")
+    asked = bench.notes.next()
+    bench.draw(replace(state, view=replace(state.view, redo=one)))
+    said = bench.client.text()
+    press_first(bench, "Keep the old one")
+
+    assert asked == ("look", (("redo", one),))
+    assert f"takes the place of {one.name}" in said
+    assert bench.notes.next() == ("look", (("redo", None),))
 
 
 def test_suggestions_can_be_switched_off(bench: Bench) -> None:
