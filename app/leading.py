@@ -138,6 +138,8 @@ class Leading:
         learned_from = [s.demonstration for s in desk.store.document.demonstrations if not s.muted]
         goal = next((anchor.now for anchor in among.anchors if anchor.kind == "goal"), None)
         said = sentences.demonstrated(part, learned_from, shown, goal)
+        if former is not None:
+            said = f"It took the place of {former.name}. {said}"
         desk.say(said if back else f"{said} {sentences.NO_WAY_BACK}", warning=shown.muted or not back)
 
     def _hold_as_it_is(self, pull: HandPull, hand: Hand) -> None:
