@@ -24,7 +24,7 @@ from app.desk import Desk
 from app.document import Document, FloatArray
 from app.examining import Examining
 from app.exporting import Exporting
-from app.inquiry import Answer, Inquirer, Inquiry
+from app.inquiry import Inquirer
 from app.library import Library, LibraryError
 from app.planning import plan_run
 from app.seat import Seat
@@ -237,13 +237,11 @@ class Session:
                 viewer.draw(state)
         finally:  # what cannot be drawn is saved all the same
             self._save()
-            self._inquirer.ask(self._desk.leading.inquiry, self._answer)
+            leading = self._desk.leading
+            self._inquirer.ask(leading.inquiry, lambda of, to: leading.answered(of, to, self.clock()))
             self._plan(state)
             self._shaping.follow(state)
             self._examining.follow(state)
-
-    def _answer(self, inquiry: Inquiry, answer: Answer) -> None:
-        self._desk.leading.answered(inquiry, answer, self.clock())
 
     def _plan(self, state: State) -> None:
         """Have a run checked that was not yet, one after the other; the one that is played comes first."""
