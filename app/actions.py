@@ -140,6 +140,10 @@ class Actions(Protocol):
         """Show in the scene what the arm did there."""
         ...
 
+    def compare(self) -> None:
+        """Let the methods that the `View` names learn what the tube has learned, and run."""
+        ...
+
     def offer_file(self, name: str, content: bytes) -> None:
         """Read an uploaded recording and show what is in it, before it is accepted."""
         ...

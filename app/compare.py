@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import json as json_text
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import tyro
 
+from app.arm.protocol import Arm
 from app.baselines import DEFAULT, Tube, methods
 from app.commands import AlignBy, Section, Units
-from app.comparison import Comparison, Row, Task, claims
+from app.comparison import Comparison, Row, Task, claims, task_of
 from app.comparison import compare as run_comparison
-from app.document import Settings
+from app.document import Document, Settings, View
+from app.model import learn
 from app.opening import opened
+from app.surroundings import conditions_of
 
 _DEFAULT = Settings()
 
@@ -43,15 +46,29 @@ def compare(
 
 
 def _answer(task: Task, names: tuple[str, ...], starts: int, *, json: bool) -> str:
-    found = run_comparison(task, methods(names, task.tube), starts)
+    try:
+        found = run_comparison(task, methods(names, task.tube), starts)
+    finally:
+        if task.arm is not None:
+            task.arm.close()
     return json_text.dumps([asdict(row) for row in found.rows]) if json else "\n".join(_words(found))
 
 
 def _task(file: Path, section: Section | None, align_by: AlignBy, units: Units) -> Task:
     """Open a recording, or a built-in skill with the things in its way."""
     document = opened(file, None if units == "auto" else units)
-    shown = tuple(each.demonstration for each in document.demonstrations if not each.muted)
-    return Task(shown, Tube(section or document.settings.section, align_by), document.things)
+    tube = Tube(section or document.settings.section, align_by, document.settings.stations)
+    return replace(task_of(document), tube=tube, arm=_arm_among_things(document))
+
+
+def _arm_among_things(document: Document) -> Arm | None:
+    """Give an arm that heeds what stands around; None where nothing does."""
+    conditions = conditions_of(learn(document), View())
+    if not conditions.obstacles:
+        return None
+    from app.arm import Jaco  # noqa: PLC0415 - it takes a third of a second to import
+
+    return Jaco().under(conditions)
 
 
 def _words(found: Comparison) -> list[str]:

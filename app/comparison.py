@@ -7,25 +7,22 @@ whether it holds on these demonstrations.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass, field, replace
-from importlib import import_module
-from time import perf_counter
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
+from scipy.spatial.distance import cdist
 
-from app.arm.shapes import Shape, pose_of, surface_distance
-from app.baselines import BaselineError, Method, Run, Skill, Taught, Tube, places_at, taught
-from app.document import FloatArray
+from app.arm.protocol import Arm
+from app.arm.shapes import Shape
+from app.baselines import BaselineError, Method, Run, Taught, Tube, places_at, taught
+from app.clocking import REPEATS, timed
+from app.document import Document, FloatArray
+from app.touching import clearances
 from gc_core import Demonstration, GeneralizedCylinder, InvalidSettingError, metrics
 
 MOST_STARTS: Final = 1000
-REPEATS: Final = 3
-"""Fits that are timed at most; the quickest counts."""
-ENOUGH: Final = 0.2
-"""No fit is repeated once this was spent [s]."""
 DISTINCT: Final = 0.8
 """The tube keeps paths distinct when their spread half way is this part of what its width there gives [-]."""
 MERGED: Final = 0.25
@@ -41,7 +38,11 @@ class Task:
     demonstrations: tuple[Demonstration, ...]
     tube: Tube = field(default_factory=Tube)
     things: tuple[Shape, ...] = ()
-    """What the hand must not touch."""
+    """What must not be touched."""
+    arm: Arm | None = None
+    """Asked how clear it stays of its obstacles, after everything else; see `app.touching`."""
+    starts: FloatArray | None = None
+    """(S, 3) where all begin [m]; None: see `starts_in`."""
 
 
 @dataclass(frozen=True)
@@ -67,9 +68,10 @@ class Row:
     spread_start_m: float | None = None
     """Of the starts, measured as half way."""
     clearance_m: float | None = None
-    """Least distance of the hand's ball point from a thing, over all runs; negative inside."""
+    """Least distance from a thing over all runs, of the whole arm where one was asked, else of the point that
+    the hand leads; negative inside."""
     contacts: int | None = None
-    """Runs that touch a thing."""
+    """Runs that touch a thing, likewise."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +93,8 @@ class Claim:
 
     method: str
     holds: bool
+    kept: float
+    """Which part of the starts' spread is left half way [-]."""
     sentence: str
 
 
@@ -145,21 +149,54 @@ def compare(task: Task, methods: Sequence[Method], count: int = 5) -> Comparison
     GcError
         If no method could learn from these demonstrations.
     """
+    *_, found = comparing(task, methods, count)
+    return found
+
+
+def comparing(
+    task: Task, methods: Sequence[Method], count: int = 5, repeats: int = REPEATS
+) -> Generator[Comparison]:
+    """Compare step by step: as `compare`, for whoever wants to show what is known already.
+
+    Parameters
+    ----------
+    task : Task
+    methods : sequence of Method
+    count : int
+        Number of starts S, where the task has none of its own.
+    repeats : int
+        Fits of a method that are timed at most.
+
+    Yields
+    ------
+    Comparison
+        Without rows; with one row more after each method; then, where an arm is asked, as many again, each
+        with one more row that says how clear it is.
+    """
     cylinder = task.tube.fit(task.demonstrations).cylinder
-    starts = starts_in(cylinder, count)
+    starts = starts_in(cylinder, count) if task.starts is None else task.starts
+    found = Comparison(starts, cylinder, ())
+    yield found
     shown = taught(task.demonstrations, task.tube.align_by)
-    rows: list[Row] = []
-    runs: dict[str, tuple[Run, ...]] = {}
     for method in methods:
-        try:
-            done, fit_ms, reproduce_ms = _timed(method, task.demonstrations, starts)
-        except BaselineError as error:
-            rows.append(Row(method.name, failed=str(error)))
-            continue
-        runs[method.name] = done
-        row = _judged(Row(method.name, fit_ms=fit_ms, reproduce_ms=reproduce_ms), done, cylinder, shown)
-        rows.append(_with_contacts(replace(row, spread_start_m=spread(starts)), done, task.things))
-    return Comparison(starts, cylinder, tuple(rows), runs)
+        row, runs = _tried(method, found, task, shown, repeats)
+        more = found.runs | ({method.name: runs} if runs else {})
+        found = replace(found, rows=(*found.rows, row), runs=more)
+        yield found
+    for number, row in enumerate(found.rows if task.arm is not None else ()):
+        cleared = _cleared(row, found.runs.get(row.method, ()), task)
+        found = replace(found, rows=(*found.rows[:number], cleared, *found.rows[number + 1 :]))
+        yield found
+
+
+def task_of(document: Document) -> Task:
+    """What a document is compared on: what it learns from, as it was taught, and what stands fixed."""
+    settings = document.settings
+    return Task(
+        tuple(each.demonstration for each in document.demonstrations if not each.muted),
+        Tube(settings.section, settings.align_by, settings.stations),
+        tuple(thing for thing in document.things if thing.mass == 0.0),
+    )
 
 
 def spread(places: FloatArray) -> float:
@@ -214,56 +251,32 @@ def claims(comparison: Comparison) -> tuple[Claim, ...]:
         sentence = (
             f"{row.method} {verb}: half way {100.0 * kept:.0f} % of the starts' spread is left{beside}."
         )
-        found.append(Claim(row.method, holds, sentence))
+        found.append(Claim(row.method, holds, kept, sentence))
     return tuple(found)
 
 
-def _timed(
-    method: Method, demonstrations: Sequence[Demonstration], starts: FloatArray
-) -> tuple[tuple[Run, ...], float, float]:
-    """Runs from all starts, and how long the quickest fit and a run took [ms]."""
-    method.ready()
-    with one_thread():
-        return _clocked(method, demonstrations, starts)
-
-
-def _clocked(
-    method: Method, demonstrations: Sequence[Demonstration], starts: FloatArray
-) -> tuple[tuple[Run, ...], float, float]:
-    skill, quickest = _fitted(method, demonstrations)
-    spent = quickest
-    for _ in range(REPEATS - 1):
-        if spent > ENOUGH:
-            break
-        skill, seconds = _fitted(method, demonstrations)
-        quickest, spent = min(quickest, seconds), spent + seconds
-    began = perf_counter()
-    runs = tuple(skill.reproduce(start) for start in starts)
-    return runs, 1000.0 * quickest, 1000.0 * (perf_counter() - began) / len(starts)
-
-
-def one_thread() -> AbstractContextManager[object]:
-    """Keep linear algebra to one thread: small matrices are shared out at a multiple of their cost."""
+def _tried(
+    method: Method, found: Comparison, task: Task, shown: Taught, repeats: int
+) -> tuple[Row, tuple[Run, ...]]:
+    """Let one method learn and run; without runs where it fails."""
     try:
-        limit: Any = import_module("threadpoolctl").threadpool_limits
-    except ImportError:
-        return nullcontext()
-    return limit(1)
-
-
-def _fitted(method: Method, demonstrations: Sequence[Demonstration]) -> tuple[Skill, float]:
-    """Fit once, and say how long it took [s]."""
-    # Copies, since what was computed of a demonstration before would be remembered with it.
-    fresh = [replace(each) for each in demonstrations]
-    began = perf_counter()
-    skill = method.fit(fresh)
-    return skill, perf_counter() - began
+        done = timed(method, task.demonstrations, found.starts, repeats)
+    except BaselineError as error:
+        return Row(method.name, failed=str(error)), ()
+    row = Row(
+        method.name,
+        fit_ms=done.fit_ms,
+        reproduce_ms=done.reproduce_ms,
+        spread_start_m=spread(found.starts),
+    )
+    row = _judged(row, done.runs, found.cylinder, shown)
+    return row if task.arm is not None else _cleared(row, done.runs, task), done.runs
 
 
 def _judged(row: Row, runs: tuple[Run, ...], cylinder: GeneralizedCylinder, shown: Taught) -> Row:
     """Add how good the runs are."""
     paths = [run.positions for run in runs]
-    leash = [min(metrics.frechet(path, other) for other in shown.paths) for path in paths]
+    leash = [_leash(path, shown.paths) for path in paths]
     warped = [min(metrics.dtw(path, other) for other in shown.paths) / len(path) for path in paths]
     return replace(
         row,
@@ -275,14 +288,28 @@ def _judged(row: Row, runs: tuple[Run, ...], cylinder: GeneralizedCylinder, show
     )
 
 
-def _with_contacts(row: Row, runs: tuple[Run, ...], things: tuple[Shape, ...]) -> Row:
-    if not things:
+def _leash(path: FloatArray, others: FloatArray) -> float:
+    """Frechet distance of a path (K, 3) from the nearest of others (n, L, 3) [m].
+
+    No leash is shorter than what takes both ends and every place to the other path: most others need not be
+    walked along.
+    """
+    shortest = np.inf
+    apart = [np.asarray(cdist(path, other), dtype=np.float64) for other in others]
+    bounds = [max(d[0, 0], d[-1, -1], d.min(axis=0).max(), d.min(axis=1).max()) for d in apart]
+    for number in np.argsort(bounds):
+        if bounds[number] >= shortest:
+            break
+        shortest = min(shortest, metrics.frechet(path, others[number]))
+    return shortest
+
+
+def _cleared(row: Row, runs: tuple[Run, ...], task: Task) -> Row:
+    """Add how clear of everything the runs are."""
+    if not runs or not (task.things or (task.arm is not None and task.arm.conditions.obstacles)):
         return row
-    clear = [
-        min(surface_distance(thing, pose_of(thing), place) for thing in things for place in run.positions)
-        for run in runs
-    ]
-    return replace(row, clearance_m=min(clear), contacts=sum(each <= 0.0 for each in clear))
+    clear = clearances(runs, task.things, task.arm)
+    return replace(row, clearance_m=float(clear.min()), contacts=int((clear <= 0.0).sum()))
 
 
 def _mean(values: list[float]) -> float:

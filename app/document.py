@@ -108,7 +108,7 @@ class Document:
 
 
 Pace: TypeAlias = Literal["taught", "fastest"]
-Tab: TypeAlias = Literal["Teach", "Try", "Move", "Fix"]
+Tab: TypeAlias = Literal["Teach", "Try", "Move", "Fix", "Compare"]
 Feel: TypeAlias = Literal["soft", "medium", "firm"]
 
 
@@ -154,3 +154,9 @@ class View:
     """The next click in the scene places a landmark, or a thing, of this kind."""
     thing: str = ""
     """Name of the thing that is worked on: it has handles to size it by."""
+    methods: tuple[str, ...] = ("dmp-5", "dmp-10", "gmr-5", "gmr-10")
+    """What the tube is compared with: names of `app.baselines.methods`; those of the paper's Fig. 9."""
+    compare_count: int = 5
+    """From so many starts in the first slice; 0: from those of Try."""
+    show_compared: bool = True
+    """Their runs are drawn in the scene."""

@@ -114,11 +114,15 @@ class Seat:
 
     def try_physics(self) -> None:
         """See `Actions.try_physics`."""
-        self._session.try_physics(self._client_id)
+        self._session.post(self._client_id, self._session.trials.begin)
 
     def play_trial(self, playing: bool) -> None:
         """See `Actions.play_trial`."""
         self._post(lambda desk, now: desk.play_trial(playing, now))
+
+    def compare(self) -> None:
+        """See `Actions.compare`."""
+        self._session.post(self._client_id, self._session.comparing.begin)
 
     def see_from(self, view: ViewName) -> None:
         """See `Actions.see_from`."""

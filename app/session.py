@@ -20,6 +20,7 @@ from app import viewers
 from app.actor import TICK, Actor, Latest
 from app.arm.conditions import Conditions
 from app.arm.protocol import Arm
+from app.comparing import Comparing
 from app.desk import Desk
 from app.document import Document, FloatArray
 from app.examining import Examining
@@ -85,7 +86,8 @@ class Session:
         self._shaping = Shaping(workshop.workers, self._actor)
         self.exporting = Exporting(workshop.workers, self._actor, workshop.make_arm)
         self._examining = Examining(workshop.workers, self._actor, workshop.make_arm)
-        self._trials = Trials(workshop.workers, self._actor, workshop.make_arm)
+        self.trials = Trials(workshop.workers, self._actor, workshop.make_arm)
+        self.comparing = Comparing(workshop.workers, self._actor, workshop.make_arm)
         self._inquirer = Inquirer(Latest(workshop.workers, self._actor), workshop.make_arm)
 
     @staticmethod
@@ -119,7 +121,8 @@ class Session:
 
     def close(self) -> None:
         """Finish, save and stop."""
-        self._trials.give_up()
+        self.trials.give_up()
+        self.comparing.give_up()
         self._actor.post(self._save_now)
         self._actor.post(self._arm.close)  # there, so that nobody else gets it while it is still used
         self._actor.close()
@@ -210,10 +213,6 @@ class Session:
 
         self.post(client_id, look)
 
-    def try_physics(self, client_id: int) -> None:
-        """Let a worker play the run in a physical world."""
-        self.post(client_id, self._trials.begin)
-
     def tell(self, client_id: int, message: str) -> None:
         """Show a warning to the tab that works here, if it is this one."""
         self.post(client_id, lambda desk, _: desk.say(message, warning=True))
@@ -231,7 +230,7 @@ class Session:
 
     def _draw(self) -> None:
         state = replace(self._desk.state(), shapes=self._shaping.shapes, parcel=self.exporting.parcel)
-        state = replace(state, postures=self._examining.postures)
+        state = replace(state, postures=self._examining.postures, compared=self.comparing.follow(state))
         try:
             for viewer in tuple(self._viewers.values()):
                 viewer.draw(state)

@@ -13,6 +13,7 @@ from app.arm.conditions import Conditions
 from app.arm.protocol import JointPath, Shortfall
 from app.arm.shapes import Quadruple
 from app.arm.verdict import Verdict
+from app.compared import Compared
 from app.document import Document, FloatArray, View
 from app.files import Frame, Unit
 from app.model import Model
@@ -196,6 +197,8 @@ class State:
     """The skill in every kind of cross-section; of a former model until those of this one are made."""
     postures: Postures | None = None
     """How the arm holds itself along the demonstrations, as far as that is known."""
+    compared: Compared | None = None
+    """Methods side by side on this skill, if it was asked."""
     stuck: bool = False
     """Whether the hand is, or was when it was let go, where only another posture of the arm comes."""
     saved: bool = True

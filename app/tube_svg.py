@@ -106,11 +106,11 @@ def tube_svg(cylinder: GeneralizedCylinder, projection: Projection) -> str:
     str
         An ``<svg>`` element.
     """
-    stations = _some(len(cylinder.directrix), POINTS)
+    stations = some(len(cylinder.directrix), POINTS)
     lines = projection.on_paper(cylinder.effective_points[stations])
-    shown = "".join(_path(lines[:, j]) for j in range(lines.shape[1]))
-    middle = _path(projection.on_paper(cylinder.directrix[stations]))
-    first, last = (_path(projection.on_paper(cylinder.surface()[end])) + "z" for end in (0, -1))
+    shown = "".join(path_of(lines[:, j]) for j in range(lines.shape[1]))
+    middle = path_of(projection.on_paper(cylinder.directrix[stations]))
+    first, last = (path_of(projection.on_paper(cylinder.surface()[end])) + "z" for end in (0, -1))
     return (
         f"{_open(HEIGHT)}"
         f'<g opacity="0.85"><path d="{first}{last}" fill="{INSIDE}"/>{_skin(cylinder, projection)}</g>'
@@ -134,7 +134,7 @@ def slice_svg(cylinder: GeneralizedCylinder, cut: Cut) -> str:
         flat = (points - cylinder.directrix[cut.station]) @ axes
         return flat * cut.scale + [0.5 * WIDTH, 0.5 * SLICE_HEIGHT]
 
-    rim = _path(on_paper(cylinder.surface()[cut.station])) + "z"
+    rim = path_of(on_paper(cylinder.surface()[cut.station])) + "z"
     dots = on_paper(cylinder.effective_points[cut.station])
     return (
         f"{_open(SLICE_HEIGHT)}"
@@ -162,8 +162,8 @@ def _axes(cylinder: GeneralizedCylinder) -> FloatArray:
 
 def _skin(cylinder: GeneralizedCylinder, projection: Projection) -> str:
     """Those quads of the surface that face the eye; the ones of a shade are one path."""
-    stations = _some(len(cylinder.directrix), RINGS)
-    rings = cylinder.surface()[np.ix_(stations, _some(cylinder.radii.shape[1] + 1, SIDES + 1)[:-1])]
+    stations = some(len(cylinder.directrix), RINGS)
+    rings = cylinder.surface()[np.ix_(stations, some(cylinder.radii.shape[1] + 1, SIDES + 1)[:-1])]
     beside = np.roll(rings, -1, axis=1)
     corners = np.stack([rings[:-1], beside[:-1], beside[1:], rings[1:]], axis=2)
     outward = np.cross(corners[:, :, 2] - corners[:, :, 0], corners[:, :, 3] - corners[:, :, 1])
@@ -183,7 +183,7 @@ def _patch(quads: FloatArray, bright: float) -> str:
     if not len(quads):
         return ""
     r, g, b = np.rint(DARKEST + bright * (LIGHTEST - DARKEST)).astype(int).tolist()
-    path = "".join(_path(quad) + "z" for quad in quads)
+    path = "".join(path_of(quad) + "z" for quad in quads)
     colour = f"#{r:02x}{g:02x}{b:02x}"
     return f'<path d="{path}" fill="{colour}" stroke="{colour}" stroke-width="4"/>'
 
@@ -195,13 +195,13 @@ def _open(height: float) -> str:
     )
 
 
-def _path(points: FloatArray) -> str:
+def path_of(points: FloatArray) -> str:
     """Points (k, 2) as a path: the first place, then steps, in whole numbers."""
     whole = np.rint(points).astype(int)
     x, y = whole[0].tolist()
     return f"M{x} {y}l" + " ".join(f"{dx} {dy}" for dx, dy in np.diff(whole, axis=0).tolist())
 
 
-def _some(count: int, most: int) -> NDArray[np.intp]:
+def some(count: int, most: int) -> NDArray[np.intp]:
     """At most so many indices, evenly, the ends among them."""
     return np.unique(np.linspace(0, count - 1, most).round().astype(np.intp))

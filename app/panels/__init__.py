@@ -1,6 +1,6 @@
 """Everything around the 3-D view: composition only; each part knows the `State` and the `Actions`.
 
-Right: the skill and the tabs Teach, Try, Move, Fix. Left: the lesson and the slice at the
+Right: the skill and the tabs Teach, Try, Move, Fix, Compare. Left: the lesson and the slice at the
 playhead. Floating at the bottom: the timeline.
 """
 
@@ -10,6 +10,7 @@ from typing import Final, Protocol
 import viser
 
 from app.actions import Actions
+from app.panels.compare import ComparePanel
 from app.panels.demonstrations import DemonstrationsPanel
 from app.panels.encoding import EncodingPanel
 from app.panels.export import ExportPanel
@@ -123,7 +124,9 @@ def _main(gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]
             LinePanel(gui, actions),
             RulesPanel(gui, actions),
         )
-    return (*header, *teach, *tries, *move, *fix)
+    with tabs.add_tab("Compare", viser.Icon.CHART_BAR):
+        compare = ComparePanel(gui, actions)
+    return (*header, *teach, *tries, *move, *fix, compare)
 
 
 def _side(gui: viser.GuiApi, actions: Actions) -> tuple[Panel, ...]:

@@ -9,6 +9,7 @@ from app.actions import Actions
 from app.arm.protocol import Arm
 from app.document import FloatArray
 from app.scene.arm import ArmFrames
+from app.scene.compared import ComparedRuns
 from app.scene.cylinder import Directrix, FormerTube, Section, Tube
 from app.scene.demonstrations import Demonstrations
 from app.scene.drop import DropLine
@@ -65,6 +66,7 @@ class Scene:
             Section(api),
             Demonstrations(api, actions, clock),
             Reproductions(api, actions, clock),
+            ComparedRuns(api),
             Hatching(api),
             Starts(api, actions, clock, self._eye),
             Landmarks(api, actions, clock, self._eye),

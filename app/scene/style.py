@@ -43,6 +43,7 @@ FORMER_OPACITY: Final = 0.12
 THIN: Final = 2.0
 THICK: Final = 4.0
 DOUBLE: Final = 8.0
+COMPARED: Final = 3.0
 HATCHED: Final = 11.0
 """Wider than every line that it may lie over."""
 

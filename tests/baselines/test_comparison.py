@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from app.__main__ import main
-from app.baselines import Run, methods
+from app.baselines import DEFAULT, Run, methods, taught
 from app.comparison import Comparison, Row, Task, claims, compare, half_way, spread, starts_in
 from app.document import Sphere
 from app.files import write
-from gc_core import InvalidSettingError, encode, metrics
+from gc_core import Demonstration, InvalidSettingError, encode, metrics
 from tests.baselines.makers import demonstrations, needs_gmr, needs_primitives
 
 PROMISED = {
@@ -48,6 +48,40 @@ def test_starts_are_distinct_places_of_the_first_slice_and_always_the_same(count
     np.testing.assert_allclose((starts - cylinder.directrix[0]) @ cylinder.frames[0, :, 0], 0.0, atol=1e-12)
     assert cylinder.contains(starts).all()
     assert len(np.unique(starts.round(4), axis=0)) == count
+
+
+def test_starts_of_ones_own_are_taken_as_they_are() -> None:
+    starts = np.array([[0.02, 0.01, 0.0], [-0.02, 0.0, 0.03]])
+    found = compare(Task(tuple(demonstrations()), starts=starts), methods(["ramp"]))
+
+    np.testing.assert_allclose([run.positions[0] for run in found.runs["ramp"]], starts, atol=1e-12)
+
+
+@needs_gmr
+@needs_primitives
+def test_a_loop_that_ends_where_it_begins_and_equal_demonstrations_stop_nothing() -> None:
+    turn = np.linspace(0.0, 2.0 * np.pi, 120)
+    loop = 0.2 * np.stack([np.cos(turn), np.sin(turn), 0.0 * turn], axis=1)
+    rows = compare(Task((Demonstration(turn, loop),) * 3), methods(), 2).rows
+
+    assert [row.method for row in rows] == list(DEFAULT)
+    assert all(row.failed or row.end_error_m is not None for row in rows)
+
+
+@needs_gmr
+def test_a_covariance_that_is_singular_is_reported_in_its_row() -> None:
+    place = 0.005 * np.array([[0.0, 0.0, 0.0], [0.5, 0.9, 0.001], [1.0, 1.8, 0.006]])
+    barely = tuple(Demonstration(0.03 * np.arange(3.0), place + aside) for aside in (0.0, 0.01))
+    row = row_of(compare(Task(barely), methods(["gmr-10", "gc"]), 2), "gmr-10")
+
+    assert "singular" in (row.failed or "")
+
+
+def test_the_leash_is_that_of_the_nearest_demonstration(found: Comparison) -> None:
+    shown = taught(demonstrations(), "arc_length").paths
+    leashes = [min(metrics.frechet(run.positions, each) for each in shown) for run in found.runs["ramp"]]
+
+    assert row_of(found, "ramp").frechet_m == pytest.approx(np.mean(leashes), abs=1e-12)
 
 
 @pytest.mark.parametrize("count", [0, -1, 10_000])

@@ -149,7 +149,7 @@ class Person:
         self.tab.page.get_by_role("button", name=label, exact=True).click()
 
     def open_tab(self, name: str) -> None:
-        """Teach, Try, Move or Fix."""
+        """Teach, Try, Move, Fix or Compare."""
         self.tab.page.get_by_role("tab", name=name).click()
 
     # --- mouse ----------------------------------------------------------------------------------------

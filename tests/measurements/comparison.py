@@ -11,7 +11,7 @@ from pathlib import Path
 import tyro
 
 from app.baselines import methods
-from app.comparison import Comparison, Task, claims, compare
+from app.comparison import Comparison, Task, claims, compare, task_of
 from app.resources import static_folder
 from app.skills import load_skill, skill_names
 from tests.helpers_data import ALL_SETS, DATA, load
@@ -30,7 +30,7 @@ demonstrations, aligned by arc length.
   merge them.
 - *end off*: from the end of the directrix. *Frechet*, *DTW* (a sample): from the nearest demonstration. Means
   of all runs.
-- *touch*: runs in contact with what stands in the way. *time*: learning and five runs, by the tube's.
+- *touch*: runs whose hand, a point here, is in what stands in the way. *time*: learning and five runs, by the tube's.
 
 | set | method | kept [%] | end off [cm] | Frechet [cm] | DTW [cm] | jerk [m²/s⁶] | touch | time |
 |---|---|---|---|---|---|---|---|---|"""
@@ -39,9 +39,7 @@ demonstrations, aligned by arc length.
 def tasks() -> Iterator[tuple[str, Task]]:
     skills = static_folder() / "skills"
     for name in skill_names(skills):
-        document = load_skill(skills, name)
-        shown = tuple(each.demonstration for each in document.demonstrations)
-        yield name, Task(shown, things=document.things)
+        yield name, task_of(load_skill(skills, name))
     if DATA.is_dir():
         for name in ALL_SETS:
             yield name, Task(tuple(load(name)))
