@@ -30,7 +30,8 @@ demonstrations, aligned by arc length.
   merge them.
 - *end off*: from the end of the directrix. *Frechet*, *DTW* (a sample): from the nearest demonstration. Means
   of all runs.
-- *touch*: runs whose hand, a point here, is in what stands in the way. *time*: learning and five runs, by the tube's.
+- *touch*: runs whose hand, a point here, is in what stands in the way. *time*: learning and five runs, by the
+  tube's.
 
 | set | method | kept [%] | end off [cm] | Frechet [cm] | DTW [cm] | jerk [m²/s⁶] | touch | time |
 |---|---|---|---|---|---|---|---|---|"""
