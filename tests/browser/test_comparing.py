@@ -26,8 +26,9 @@ def test_around_an_obstacle_is_compared_in_words_in_a_table_and_in_the_scene(vis
     person.press_exactly("Compare")
 
     table = tab.page.locator(TABLE)
-    tab.wait_until(lambda: table.count() == 1 and "\u2026" not in table.inner_text())
-    tab.wait_until(lambda: tab.shows("The tube keeps the 5 paths apart"))
+    tab.wait_until(lambda: table.count() == 1 and "Touch" in table.inner_text())
+    tab.wait_until(lambda: "\u2026" not in table.inner_text())
+    assert tab.shows("The tube keeps the 5 paths apart")
     assert tab.shows("DMP 5, DMP 10, GMR 5 and GMR 10 bring them together")
     assert table.locator("th").all_inner_texts()[1:] == [f"\n{LOOKS[name].label}" for name in FIG_9]
     touched = table.locator("tr", has_text="Touch").inner_text().split("\t")[1:]
