@@ -23,7 +23,7 @@ class MissingToolError(StudyError):
     def __init__(self, name: str) -> None:
         super().__init__(
             f"A study needs the package {name}, which is missing. "
-            "Install it with: pip install gc-teach[study]"
+            "Install it with: pip install gc-teach[study,compare]"
         )
         self.name = name
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
@@ -114,7 +115,8 @@ def as_it_is(data: DataSet) -> DataSet:
 
 
 def end_with_parent() -> None:
-    """Let a worker process end when the one that started it is killed, which would leave it waiting."""
+    """Let a worker process end when the one that started it is killed; Ctrl+C is for that one alone."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
     if parent is not None:
         Thread(target=_end_after, args=(parent.join,), daemon=True).start()

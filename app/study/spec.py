@@ -12,9 +12,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final, TypeVar, cast, get_args
 
-from app.baselines import methods
+from app.baselines import DEFAULT, methods
 from app.comparison import MOST_STARTS
-from app.document import ALIGNMENTS, Alignment
+from app.document import Alignment
 from app.resources import static_folder
 from app.study.errors import BadSpecError
 from gc_core import GcError
@@ -22,7 +22,6 @@ from gc_core.sections import SECTIONS
 
 _T = TypeVar("_T")
 
-DEFAULT_METHODS: Final = ("gc", "ramp", "dmp-5", "dmp-10", "promp-5", "promp-10", "gmr-5", "gmr-10")
 FARTHEST: Final = 2.0
 """Landmarks are moved by no more than this [m]."""
 
@@ -62,7 +61,7 @@ class Spec:
     data: Path
     """Folder that patterns are relative to."""
     data_sets: tuple[Choice, ...]
-    methods: tuple[str, ...] = DEFAULT_METHODS
+    methods: tuple[str, ...] = DEFAULT
     sections: tuple[str, ...] = tuple(SECTIONS)
     """Kinds of slices of the tube; other methods have none."""
     alignments: tuple[Alignment, ...] = ("arc_length",)
@@ -203,7 +202,7 @@ class _Reader:
         return tuple(names)
 
     def _methods(self) -> tuple[str, ...]:
-        names = self._list("methods", DEFAULT_METHODS, "names")
+        names = self._list("methods", DEFAULT, "names")
         try:
             methods([str(name) for name in names])
         except GcError as error:
@@ -224,6 +223,3 @@ class _Reader:
         if not all(isinstance(table.get(key), str) for key in ("name", "files")):
             raise self._wrong("data_sets", table, 'both a name and files: {name = "one set", files = "*.h5"}')
         return Choice(table["files"], table["name"])
-
-
-__all__ = ("ALIGNMENTS", "KEYS", "Choice", "Plan", "Spec", "read_spec", "spec_path")
