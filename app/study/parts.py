@@ -13,6 +13,7 @@ from functools import lru_cache
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 from itertools import product
+from pathlib import Path
 from typing import Final, Literal, TypeAlias
 
 import numpy as np
@@ -26,7 +27,9 @@ Experiment: TypeAlias = Literal["left_out", "moves", "starts"]
 EXPERIMENTS: Final[tuple[Experiment, ...]] = ("left_out", "moves", "starts")
 TUBE: Final = "gc"
 """The method that has kinds of slices."""
-PACKAGES: Final = ("gc-teach", "numpy", "scipy", "dtaidistance", "gmr", "movement_primitives")
+OURS: Final = "gc-teach"
+CODE: Final = ("gc_core/*.py", "app/baselines/*.py", "app/study/*.py", "app/comparison.py")
+PACKAGES: Final = (OURS, "numpy", "scipy", "dtaidistance", "gmr", "movement_primitives")
 """What the numbers come from."""
 
 
@@ -100,8 +103,18 @@ def random_numbers(plan: Plan, part: Part) -> np.random.Generator:
 
 @lru_cache(maxsize=1)
 def versions() -> Mapping[str, str]:
-    """Versions of `PACKAGES`; one that is missing is called so."""
-    return {name: _version(name) for name in PACKAGES}
+    """Versions of `PACKAGES`; one that is missing is called so. Ours has a digest of its code behind it."""
+    found = {name: _version(name) for name in PACKAGES}
+    return found | {OURS: f"{found[OURS]}+{_code()}"}
+
+
+def _code() -> str:
+    """Digest of the code that numbers come from, which changes more often than its version."""
+    home = Path(__file__).resolve().parents[2]
+    content = sha256()
+    for path in sorted(path for pattern in CODE for path in home.glob(pattern)):
+        content.update(path.name.encode() + path.read_bytes())
+    return content.hexdigest()[:12]
 
 
 def _version(name: str) -> str:
