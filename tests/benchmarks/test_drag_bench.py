@@ -124,6 +124,26 @@ class Puller:
         return Drag(self.node, phase, self.at, pointer, self.now)
 
 
+class Corrector(Puller):
+    """The same, of the hand of a replay."""
+
+    def _begin(self) -> None:
+        desk = self.desk
+        desk.let_go(self.now)
+        desk.amend(lambda amending: amending.discard())
+        self.now += 10.0
+        desk.start_replay(self.now)
+        while (replay := desk.state().replay) is not None and not len(replay.done):
+            self.now += EVENT
+            desk.tick(self.now, EVENT)
+        state = desk.state()
+        self.viewer.draw(state)
+        self.at = state.hand.position
+        self.way = way_of(self.node, self.at, EVENTS)
+        desk.drag(self._event("start", self.at))
+        self.left = EVENTS
+
+
 @pytest.fixture(scope="module")
 def handle() -> Iterator[viser.ClientHandle]:
     """One tab, connected."""
@@ -160,6 +180,13 @@ def test_the_servers_work_for_a_correction(
 
 
 @pytest.mark.benchmark(group=GROUP)
+def test_the_servers_work_for_a_replay_that_is_corrected(
+    benchmark: BenchmarkFixture, handle: viser.ClientHandle, jaco: Jaco
+) -> None:
+    measure(benchmark, handle, jaco, reaching(SAMPLES[0]), "/hand", puller_of=Corrector)
+
+
+@pytest.mark.benchmark(group=GROUP)
 @pytest.mark.parametrize("node", ["/landmarks/goal", "/landmarks/box"])
 def test_the_servers_work_with_four_landmarks_and_a_frame_among_them(
     benchmark: BenchmarkFixture, handle: viser.ClientHandle, jaco: Jaco, node: str
@@ -168,14 +195,20 @@ def test_the_servers_work_with_four_landmarks_and_a_frame_among_them(
 
 
 def measure(
-    benchmark: BenchmarkFixture, handle: viser.ClientHandle, jaco: Jaco, document: Document, node: str
+    benchmark: BenchmarkFixture,
+    handle: viser.ClientHandle,
+    jaco: Jaco,
+    document: Document,
+    node: str,
+    *,
+    puller_of: type[Puller] = Puller,
 ) -> None:
     """Pull a node of a document's scene."""
     desk = Desk(document, jaco)
     desk.stage.pause()
     avoid_pauses()  # as `gc-teach serve` does
     viewer = viewers.working(handle, Notes(), jaco, time.monotonic, [])
-    puller = Puller(desk, viewer, node)
+    puller = puller_of(desk, viewer, node)
 
     benchmark.pedantic(puller.update, setup=puller.one_event, rounds=4 * EVENTS, warmup_rounds=10)
 

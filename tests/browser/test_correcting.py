@@ -84,12 +84,7 @@ def test_a_hand_pulled_aside_during_a_replay_yields_as_the_stiffness_says_and_is
     tab = (person := visit()).tab
     person.pause()
     before = person.work()
-    person.open_tab("Fix")
-    tab.wait_until(lambda: tab.shows("Replay and let me correct"))
-    choose(person, "½×", "¼×")
-    person.press_exactly("Replay and let me correct")
-    tab.wait_until(lambda: tab.shows(" s of ") and tab.pixel("/hand")[0] < RIGHT)
-
+    begin_replay(person)
     x, y = catch(tab)
     by = aside(person, -PULL)
     tab.pull((x + 5.0, y), (x + by[0], y + by[1]), steps=8)
@@ -118,6 +113,16 @@ def test_a_hand_pulled_aside_during_a_replay_yields_as_the_stiffness_says_and_is
     np.testing.assert_allclose(np.diff(corrected.times[: held[-1]]), 0.01 * SPEED, atol=1e-9)
     assert events >= 0.75 * min(moves, MOST_EVENTS * seconds)
     assert {LINE, "/tube"} <= person.changed(before, after)
+
+
+def begin_replay(person: Person) -> None:
+    """Replay at a quarter of the speed, and wait until the hand can be caught."""
+    tab = person.tab
+    person.open_tab("Fix")
+    tab.wait_until(lambda: tab.shows("Replay and let me correct"))
+    choose(person, "½×", "¼×")
+    person.press_exactly("Replay and let me correct")
+    tab.wait_until(lambda: tab.shows(" s of ") and tab.pixel("/hand")[0] < RIGHT)
 
 
 def choose(person: Person, shown: str, wanted: str) -> None:

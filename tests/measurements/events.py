@@ -23,7 +23,7 @@ from app.replaying import Replaying
 from tests.browser.conftest import DENSITY, address, serving
 from tests.browser.conftest import come as first_screen
 from tests.browser.person import SIZE, Person
-from tests.browser.test_correcting import RIGHT, catch, choose
+from tests.browser.test_correcting import begin_replay, catch
 from tests.support.chromium import FLAGS, ViserPage, chromium_program
 
 SECONDS = 5.0
@@ -39,11 +39,7 @@ def measured(person: Person, endpoint: str, arrived: list[float]) -> str:
     """Hold the hand of a replay and move the mouse; says what came of it."""
     tab = person.tab
     person.pause()
-    person.open_tab("Fix")
-    tab.wait_until(lambda: tab.shows("Replay and let me correct"))
-    choose(person, "½×", "¼×")
-    person.press_exactly("Replay and let me correct")
-    tab.wait_until(lambda: tab.shows(" s of ") and tab.pixel("/hand")[0] < RIGHT)
+    begin_replay(person)
     x, y = catch(tab)
     tab.page.evaluate(COUNT)
     before, began = len(arrived), time.perf_counter()
@@ -69,9 +65,9 @@ def main() -> None:
     arrived: list[float] = []
     follow = Replaying.follow
 
-    def counted(replaying: Replaying, drag: Drag) -> None:
+    def counted(self: Replaying, drag: Drag) -> None:
         arrived.append(drag.time)
-        follow(replaying, drag)
+        follow(self, drag)
 
     Replaying.follow = counted
     flags = [*FLAGS, f"--remote-debugging-port={PORT}"]
