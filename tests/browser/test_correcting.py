@@ -92,10 +92,11 @@ def test_a_hand_pulled_aside_during_a_replay_yields_as_the_stiffness_says_and_is
     while time.perf_counter() < began + 1.5:
         tab.page.mouse.move(x + by[0], y + by[1] + next(trembling))
         moves += 1
-    seconds, events = time.perf_counter() - began, len(arrived) - before_moves
+    seconds = time.perf_counter() - began
     tab.page.mouse.move(x + by[0], y + by[1])
     tab.release()
     tab.wait_until(lambda: not tab.shows(HELD))
+    events = len(arrived) - before_moves
     tab.page.wait_for_timeout(1500)
     person.press_exactly("Stop")
     tab.wait_until(lambda: tab.shows("Correction of"))
