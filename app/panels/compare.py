@@ -106,7 +106,8 @@ def answer(known: Compared) -> str:
     parts = [words.note(words.escape(each), color=words.AMBER) for each in warnings]
     if known.found is not None:
         parts += [words.note(words.escape(each)) for each in compare_words.claims_in_words(known.found)]
-        parts.append(f'<div style="padding:0 0.75rem 0.5rem">{known.picture}</div>')
+        paper = f"margin:0 0.75rem 0.5rem;border-radius:6px;padding:4px;{compare_words.PAPER}"
+        parts.append(f'<div style="{paper}">{known.picture}</div>')
         parts.append(compare_words.table(known))
         parts.append(words.note(words.escape(compare_words.meaning(known.found))))
     dim = "opacity:0.55" if known.outdated else ""

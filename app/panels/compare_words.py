@@ -12,6 +12,10 @@ CLEARLY: Final = 0.8
 """The best number stands out where it is this part of the second best, or less [-]."""
 WAITS: Final = "…"
 NONE: Final = "–"
+ROW: Final = 1.6
+"""How high a line is [em]; what is wrong with a method fills its column and makes no line higher."""
+PAPER: Final = "background:#f4f5f7;color:#22262c;color-scheme:light"
+"""Behind the colours of methods, which are made for a light ground, in the dark theme too."""
 
 
 @dataclass(frozen=True)
@@ -118,8 +122,9 @@ def table(known: Compared) -> str:
         "<style>.gc-compare{border-collapse:collapse;width:100%;font-size:0.7rem;line-height:1.3;"
         "font-variant-numeric:tabular-nums}.gc-compare th{font-weight:600;padding:2px}.gc-compare td{"
         "text-align:right;padding:2px 3px;border-top:1px solid light-dark(#dde1e7,#3a3f47)}"
-        ".gc-compare td:first-child{text-align:left;white-space:nowrap}.gc-compare td.gc-why{text-align:left;"
-        f"vertical-align:top;color:{words.AMBER};writing-mode:vertical-rl;overflow-wrap:anywhere}}</style>"
+        f".gc-compare th+th{{{PAPER}}}.gc-compare td:first-child{{text-align:left;white-space:nowrap}}"
+        f".gc-compare td.gc-why{{color:{words.AMBER};vertical-align:top}}"
+        ".gc-compare td.gc-why div{text-align:left;writing-mode:vertical-lr;overflow-wrap:anywhere}</style>"
     )
     return (
         f'{style}<div style="padding:0 0.5rem 0.5rem;overflow-x:auto">'
@@ -130,14 +135,16 @@ def table(known: Compared) -> str:
 def _line(line: Line, known: Compared, rows: Mapping[str, Row], height: int) -> str:
     """One line; where a method failed, its cell of all lines is in the first one, which has a height."""
     values = {name: line.value(row) for name, row in rows.items() if row.failed is None}
-    best = best_of(values) if line.least_is_best else None
+    written = {name: float(format(value, line.form)) for name, value in values.items() if value is not None}
+    best = best_of(written) if line.least_is_best else None
     cells = [f'<td title="{words.escape(line.hint)}">{line.label}</td>']
     for name in known.names:
         failed = rows[name].failed if name in rows else None
         if failed is None:
             cells.append(f"<td>{_number(values.get(name), line, known, bold=name == best)}</td>")
         elif height:
-            cells.append(f'<td class="gc-why" rowspan="{height}">{words.escape(failed)}</td>')
+            why = f'<div style="height:{ROW * height:.1f}em">{words.escape(failed)}</div>'
+            cells.append(f'<td class="gc-why" rowspan="{height}">{why}</td>')
     return f"<tr>{''.join(cells)}</tr>"
 
 
@@ -148,10 +155,10 @@ def _number(value: float | None, line: Line, known: Compared, *, bold: bool) -> 
     return f"<b>{text}</b>" if bold else text
 
 
-def best_of(values: Mapping[str, float | None]) -> str | None:
-    """Name the clearly least of values; None where there is no such one."""
-    known = sorted((value, name) for name, value in values.items() if value is not None)
-    if len(known) < 2 or known[0][0] > CLEARLY * known[1][0]:
+def best_of(values: Mapping[str, float]) -> str | None:
+    """Name the clearly least of values as they are written; None where there is no such one."""
+    known = sorted((value, name) for name, value in values.items())
+    if len(known) < 2 or known[0][0] > CLEARLY * known[1][0] or known[0][0] == known[1][0]:
         return None
     return known[0][1]
 

@@ -169,6 +169,16 @@ def test_pulling_on_something_stops_the_work(comparing: Comparing, mailbox: Mail
     assert "stopped" in shown.problem
 
 
+def test_work_that_breaks_down_is_not_shown_as_going_on(
+    comparing: Comparing, desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("app.comparing.comparison_svg", {}.__getitem__)
+    with pytest.raises(TypeError):
+        comparing.begin(desk, 0.0)
+
+    assert known(comparing, desk).doing == ""
+
+
 def test_a_missing_package_is_said_in_its_row_and_the_others_go_on(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "gmr", None)
     found = known_of(taught(), View(methods=("gmr-5", "ramp")))[-1].found

@@ -90,12 +90,13 @@ def test_what_was_found_is_marked_as_of_a_skill_that_has_changed(bench: Bench) -
 def test_a_method_that_failed_says_why_in_its_cell() -> None:
     lines = cells(table(with_rows(Row("gc", end_error_m=0.01), Row("gmr-5", failed="It <cannot>."))))
 
-    assert lines[0][2] == "It &lt;cannot&gt;."
+    assert "It &lt;cannot&gt;." in lines[0][2]
     assert {len(line) for line in lines[1:]} == {2}
 
 
 def test_only_what_is_clearly_the_least_stands_out() -> None:
-    assert best_of({"gc": 1.0, "ramp": 2.0, "dmp-5": None}) == "gc"
+    assert best_of({"gc": 1.0, "ramp": 2.0}) == "gc"
+    assert best_of({"gc": 0.0, "ramp": 0.0}) is None
     assert best_of({"gc": 1.9, "ramp": 2.0}) is None
     assert best_of({"gc": 1.0}) is None
 
