@@ -34,7 +34,7 @@ def serve(
     """Serve the teaching app; a fresh page opens on the files' demonstrations, or on *Reaching*.
 
     Args:
-        files: Recordings to open (.mat .csv .npy .npz .h5 .hdf5).
+        files: A skill (.gcteach) or recordings to open (.mat .csv .npy .npz .h5 .hdf5).
         host: Address to listen on; by default only this computer can connect.
         port: Port to listen on.
         library: Database of the saved skills, for instance sqlite:///skills.db.

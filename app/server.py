@@ -18,7 +18,8 @@ from app import edits, skills, web
 from app.arm.jaco import Jaco
 from app.arm.protocol import Arm
 from app.document import Document
-from app.files import inspect
+from app.exports import is_skill, unpack
+from app.files import content_of, inspect
 from app.library import Library
 from app.resources import static_folder
 from app.scene import draw_world, look_from_here
@@ -196,7 +197,7 @@ class TooManySessionsError(GcError):
 
 
 def first_document(files: Sequence[str | Path]) -> Callable[[], Document]:
-    """Say what a fresh session opens: the files named on the command line, or *Reaching*.
+    """Say what a fresh session opens: a skill's file, demonstrations of several files, or *Reaching*.
 
     Raises
     ------
@@ -205,6 +206,9 @@ def first_document(files: Sequence[str | Path]) -> Callable[[], Document]:
     """
     if not files:
         return lambda: skills.load_skill(static_folder() / "skills", "reaching")
+    if len(files) == 1 and is_skill(Path(files[0]).name):
+        skill = unpack(Path(files[0]).name, content_of(Path(files[0])))
+        return lambda: skill
     readings = [inspect(file) for file in files]
     for reading in readings:
         _log.info("%s: %s", reading.name, reading.summary)

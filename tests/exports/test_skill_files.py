@@ -7,6 +7,7 @@ import json
 import zipfile
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from app.edits import skill_of
 from app.exports import pack, unpack
 from app.files import FORMATTERS, FileError, inspect_bytes, read
 from app.resources import static_folder
+from app.server import first_document
 from gc_core import GcError, same_content
 from tests.app.makers import furnished, taught
 from tests.files.makers import DATA, needs_data, npy_of
@@ -56,6 +58,28 @@ def test_a_skill_file_is_also_read_as_its_demonstrations() -> None:
     (found,) = inspect_bytes("a.gcteach", pack(document)).demonstrations
 
     assert same_content(found, document.demonstrations[0].demonstration)
+
+
+FIXTURE = Path(__file__).parent / "fixtures" / "everything.gcteach"
+"""`pack(furnished())` of tests.app.makers, as gc-teach 0.1 wrote it; later versions must read it."""
+
+
+def test_a_skill_file_of_version_0_1_is_still_read() -> None:
+    document, wanted = unpack(FIXTURE.name, FIXTURE.read_bytes()), furnished()
+
+    assert [place.name for place in document.landmarks] == ["start", "goal", "cup"]
+    assert [rule.name for rule in document.rules] == ["Lid"]
+    assert document.things == wanted.things
+    assert document.settings == wanted.settings
+    for shown, other in zip(document.demonstrations, wanted.demonstrations, strict=True):
+        np.testing.assert_allclose(shown.demonstration.positions, other.demonstration.positions, atol=1e-12)
+
+
+def test_a_skill_file_is_what_serve_opens(tmp_path: Path) -> None:
+    path = tmp_path / "mine.gcteach"
+    path.write_bytes(pack(furnished()))
+
+    assert same_content(first_document([path])(), furnished())
 
 
 @needs_data
