@@ -56,10 +56,8 @@ def checked(document: Document) -> Document:
             raise ForeignSkillError(f"The file has {len(items)} {what}, and a skill at most {most}")
     if not document.title.strip() or len(document.title) > LONGEST_NAME:
         raise ForeignSkillError("The skill in the file has no name, or one that is too long")
-    _check_scene_names("landmark", [place.name for place in document.landmarks])
+    _check_landmarks(document)
     _check_scene_names("thing", [thing.name for thing in document.things])
-    for place in (*document.landmarks, *document.tries):
-        _check_place(place)
     for start in document.starts:
         point(start)
     for thing in document.things:
@@ -72,6 +70,15 @@ def checked(document: Document) -> Document:
     # Their bounds are those of the edits, which give the same document back.
     set_stations(replace(document, settings=replace(document.settings)), document.settings.stations)
     return set_smoothing(document, document.smoothing)
+
+
+def _check_landmarks(document: Document) -> None:
+    _check_scene_names("landmark", [place.name for place in document.landmarks])
+    kinds = [place.kind for place in document.landmarks]
+    if max(kinds.count("start"), kinds.count("goal")) > 1:
+        raise ForeignSkillError("The motion in the file has two starts or two goals")
+    for place in (*document.landmarks, *document.tries):
+        _check_place(place)
 
 
 def _check_scene_names(noun: str, names: Sequence[str]) -> None:

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
+
+from numpy.typing import NDArray
 
 from app.document import Document
 from app.exports.checking import checked
 from app.files import LARGEST_FILE, SUFFIX, FileError, TooLargeError, format_skill, open_skill
+from app.files.archives import LARGEST_UNPACKED
 from app.library.codec import decode_document, encode_document
 from app.model import learn
 from gc_core import GcError
 
+_NAMED: Final = re.compile(r'"array"\s*:\s*"([0-9a-f]{40})"')
 FRESH: Final = "Export the skill again, or ask for the file again."
 
 
@@ -25,6 +32,14 @@ def pack(document: Document) -> bytes:
     """Write a skill: the same skill gives the same bytes. A built-in one becomes the person's own."""
     encoded = encode_document(replace(document, built_in=False))
     return format_skill(encoded.text, encoded.arrays)
+
+
+def _check_copies(name: str, text: str, arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Refuse a few numbers that are named so often that their copies would fill the memory."""
+    named = Counter(_NAMED.findall(text))
+    size = sum(count * arrays[key].nbytes for key, count in named.items() if key in arrays)
+    if size > LARGEST_UNPACKED:
+        raise TooLargeError(name, "unpacks to", size, LARGEST_UNPACKED, unit="bytes")
 
 
 def unpack(name: str, content: bytes) -> Document:
@@ -51,6 +66,7 @@ def unpack(name: str, content: bytes) -> Document:
     if len(content) > LARGEST_FILE:
         raise TooLargeError(name, "has", len(content), LARGEST_FILE, unit="bytes")
     text, arrays = open_skill(name, content)
+    _check_copies(name, text, arrays)
     try:
         document = checked(decode_document(text, arrays))
         learn(document, coarse=True)

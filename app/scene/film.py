@@ -11,12 +11,12 @@ from dataclasses import replace
 from typing import Final
 
 import numpy as np
-import rich
 import viser
 
 from app.arm.protocol import Arm
 from app.document import FloatArray, View
 from app.model import Model
+from app.resources import static_folder
 from app.scene import landmarks, things
 from app.scene.arm import ArmFrames
 from app.scene.cylinder import Tube
@@ -43,6 +43,7 @@ from app.scene.style import (
 from app.scene.view import look_from_here
 from app.scene.world import draw_world
 from app.store import Hand, Plan, Playback, State
+from app.web import open_server
 
 RATE: Final = 20.0
 """Pictures a second."""
@@ -71,8 +72,8 @@ def film(arm: Arm, model: Model, plan: Plan | None) -> str:
     str
         HTML, about 1.5 MB with the meshes of the Jaco.
     """
-    rich.reconfigure(quiet=True)  # viser's banner would spoil the output of a command
-    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    # As careful as the one that people see: for a moment it listens, though on this machine only.
+    server = open_server(port=0, health=dict, static=static_folder())
     try:
         api = server.scene
         draw_world(api, arm)

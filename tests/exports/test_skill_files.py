@@ -137,6 +137,11 @@ def put(value: object, *path: str | int) -> Callable[[dict[str, Any]], object]:
     return change
 
 
+def repeat(saved: dict[str, Any], name: str, times: int) -> None:
+    """Append copies of the first of some items."""
+    field(saved, name).extend([field(saved, name, 0)] * times)
+
+
 SHOWN = ("demonstrations", 0, "Shown", "demonstration", "Demonstration")
 RULE = ("rules", 0, "Rule", "constraint", "Constraint")
 NAN = {"array": "0" * 40}
@@ -170,12 +175,15 @@ FOREIGN: dict[str, bytes] = {
     "a start far away": rewritten(put([[1e9, 0.0, 0.0]], "starts")),
     "a landmark's name with a path": rewritten(put("../hand", "landmarks", 1, "Place", "name")),
     "two landmarks of one name": rewritten(put("start", "landmarks", 2, "Place", "name")),
+    "two goals": rewritten(put("goal", "landmarks", 2, "Place", "kind")),
+    "a few numbers named too often": rewritten(
+        lambda saved: (put(NAN, *SHOWN, "positions")(saved), repeat(saved, "demonstrations", 199)),
+        **{"0" * 40 + ".npy": npy_of(np.zeros((60_000, 3)))},
+    ),
     "a box of negative size": rewritten(put([-1.0, 1.0, 1.0], "things", 0, "Box", "size")),
     "a thing at infinity": rewritten(put([1e300, 0.0, 0.0], "things", 0, "Box", "position")),
     "a rule that does not fit together": rewritten(put({"array": "0" * 40}, *RULE, "points"), **WITH_NAN),
-    "a thousand landmarks": rewritten(
-        lambda saved: field(saved, "landmarks").extend([field(saved, "landmarks", 0)] * 1000)
-    ),
+    "a thousand landmarks": rewritten(lambda saved: repeat(saved, "landmarks", 1000)),
     "a text of five megabytes": rewritten(lambda saved: saved.update(note="x" * 5 * 2**20)),
     "a deep nest": rewritten(lambda _: 0, **{"skill.json": b"[" * 100_000}),
     "a cut": pack(furnished())[:-300],
