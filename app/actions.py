@@ -171,3 +171,27 @@ class Actions(Protocol):
     def open_skill(self, name: str) -> None:
         """Open a built-in skill, or an empty one (``""``), in place of the present one; can be undone."""
         ...
+
+    def go_back(self, stamp: int) -> None:
+        """Work on an earlier version of the skill again; can be undone."""
+        ...
+
+    def copy_version(self, stamp: int) -> None:
+        """Make a skill of its own of a version of this one."""
+        ...
+
+    def copy_skill(self, code: str) -> None:
+        """Make a skill of its own of a saved one, as it was last saved."""
+        ...
+
+    def delete_skill(self, code: str) -> None:
+        """Put a saved skill among the recently deleted."""
+        ...
+
+    def restore_skill(self, code: str) -> None:
+        """Bring a recently deleted skill back."""
+        ...
+
+    def forget_skill(self, code: str) -> None:
+        """Delete a recently deleted skill for good."""
+        ...

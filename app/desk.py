@@ -17,6 +17,7 @@ from app.files import Frame, Reading, Unit
 from app.gesture import Pull
 from app.grasp import Grasp
 from app.handpull import HandPull
+from app.history import History
 from app.leading import Leading
 from app.linepull import LinePull
 from app.model import learn
@@ -33,9 +34,10 @@ PATIENCE: Final = 0.08
 class Desk:
     """One skill being worked on, with the arm that plays it."""
 
-    def __init__(self, document: Document, arm: Arm) -> None:
-        """Open a document; its first reproduction plays."""
-        self.store = Store(document)
+    def __init__(self, opened: Document | History, arm: Arm) -> None:
+        """Open a document, with its history or without; its first reproduction plays."""
+        self.store = Store(opened)
+        document = self.store.document
         self.view = View()
         self.model = learn(document)
         self.stage = Stage(arm)
@@ -43,7 +45,6 @@ class Desk:
         self.message, self.warning = document.about, False
         self._held: Grasp | None = None
         self.amending = Amending(self.stage, self.store)
-        self.saved = self.saving = document
         self.leading = Leading(self)
         """Buttons and numbers for the hand."""
         self._set_stage()
@@ -74,7 +75,7 @@ class Desk:
             proposal=self.amending.proposal,
             trial=self.stage.trial(self.model),
             stuck=self.leading.stuck,
-            saved=self.saved is self.store.document,
+            history=self.store.history,
         )
 
     def learned(self) -> Document:
@@ -134,7 +135,7 @@ class Desk:
         self.let_go(now)
         self.amending.settle("", now)
         self.amending.discard()
-        self.store.replace(document, f"open {document.title}", now=now)
+        self.store.replace(document, f"open {document.title}")
         self.stage.open(playing=bool(document.demonstrations))
         if document.demonstrations:
             self.stage.driver.lead()

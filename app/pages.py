@@ -33,6 +33,19 @@ SAFE: Final = MappingProxyType(
         "Cache-Control": "no-cache",
     }
 )
+COOKIE: Final = "gc_teach_opened"
+REMEMBERED: Final = 365 * 24 * 3600
+"""So long a browser remembers the codes that it opened [s]."""
+MOST_OPENED: Final = 40
+LOCAL: Final = ("localhost", "127.0.0.1", "[::1]")
+NO_CODE: Final = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>
+<meta name="viewport" content="width=device-width"><meta name="color-scheme" content="light dark">
+<body style="font:1.1rem/1.5 system-ui,sans-serif;max-width:34rem;margin:15vh auto;padding:0 1rem">
+<h1 style="font-size:1.4rem">There is no skill at this address</h1>
+<p>What follows <b>/s/</b> cannot be the code of a skill: codes have 10 to 64 letters, digits,
+hyphens and underscores. Part of the link was probably lost on the way; copy all of it.</p>
+<p><a href="{up}">Begin with a new skill</a></p>
+"""
 _CODE = re.compile(r"[A-Za-z0-9_-]{10,64}")
 _TYPES = MappingProxyType(
     {".js": "application/javascript", ".md": "text/markdown", ".glb": "model/gltf-binary"}
@@ -49,6 +62,8 @@ class Reply:
     location: str | None = None
     packed: bytes | None = None
     """The body by gzip, when that was made beforehand."""
+    opened: tuple[str, ...] = ()
+    """Codes that the browser shall remember, the last opened first."""
 
     def headers(self, accept_encoding: str) -> tuple[dict[str, str], bytes]:
         """Headers and body for a client that accepts these encodings."""
@@ -58,6 +73,9 @@ class Reply:
             extra["Content-Encoding"] = "gzip"
         if self.location is not None:
             extra["Location"] = self.location
+        if self.opened:
+            value = ".".join(self.opened)
+            extra["Set-Cookie"] = f"{COOKIE}={value}; Path=/; Max-Age={REMEMBERED}; HttpOnly; SameSite=Lax"
         known = {"Content-Type": self.content_type, "Content-Length": str(len(body))}
         return {**known, "Vary": "Accept-Encoding", **extra}, body
 
@@ -88,6 +106,20 @@ def code_in_path(path: str) -> str | None:
     top, _, rest = urlsplit(path).path.lstrip("/").partition("/")
     code = rest.removesuffix("/")
     return code if top == "s" and valid_code(code) else None
+
+
+def opened_codes(cookies: str) -> tuple[str, ...]:
+    """The codes that a browser has opened, the last first, from its ``Cookie`` header."""
+    for one in cookies.split(";"):
+        name, _, value = one.strip().partition("=")
+        if name == COOKIE:
+            return tuple(code for code in value.split(".")[:MOST_OPENED] if valid_code(code))
+    return ()
+
+
+def is_local(host: str) -> bool:
+    """Whether a ``Host`` header names the machine that the browser itself runs on."""
+    return host.rpartition(":")[0] in LOCAL or host in LOCAL
 
 
 def same_origin(origin: str | None, host: str | None) -> bool:
@@ -126,7 +158,7 @@ def gather_style(static: Path) -> str:
     return "\n".join(path.read_text(encoding="utf-8") for path in sorted((static / "style").glob("*.css")))
 
 
-def answer(site: Site, target: str) -> Reply:
+def answer(site: Site, target: str, cookies: str = "") -> Reply:
     """Answer one GET.
 
     Parameters
@@ -135,6 +167,8 @@ def answer(site: Site, target: str) -> Reply:
         What there is.
     target
         The request's path as it came, with its query.
+    cookies
+        Its ``Cookie`` header.
     """
     path = target.partition("?")[0]
     if path in ("/", "/index.html"):
@@ -144,8 +178,12 @@ def answer(site: Site, target: str) -> Reply:
         state = site.health()
         status = HTTPStatus.SERVICE_UNAVAILABLE if state.get("ok") is False else HTTPStatus.OK
         return Reply(status, json.dumps(state, default=str).encode(), "application/json")
-    if code_in_path(path) is not None:
-        return site.page
+    code = code_in_path(path)
+    if code is not None:
+        others = (one for one in opened_codes(cookies) if one != code)
+        return replace(site.page, opened=(code, *others)[:MOST_OPENED])
+    if path.startswith("/s/"):
+        return _no_code(path.removeprefix("/s/"))
     if path.startswith("/static/"):
         return _file(site.static, unquote(path.removeprefix("/static/"), errors="replace"))
     return _not_found()
@@ -168,6 +206,12 @@ def _file(root: Path, relative: str) -> Reply:
 def _content_type(path: Path) -> str:
     kind = _TYPES.get(path.suffix) or mimetypes.guess_type(path.name)[0] or "application/octet-stream"
     return f"{kind}; charset=utf-8" if kind.startswith("text/") else kind
+
+
+def _no_code(text: str) -> Reply:
+    """Say that this cannot be a skill's address, and what to do."""
+    body = NO_CODE.format(title=TITLE, up="../" * (text.count("/") + 1))
+    return Reply(HTTPStatus.NOT_FOUND, body.encode(), "text/html; charset=utf-8")
 
 
 def _not_found() -> Reply:

@@ -1,5 +1,7 @@
 """What one tab asks for, put into the session's mailbox."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -9,9 +11,10 @@ from app.desk import Desk
 from app.document import Document, FloatArray
 from app.exports import is_skill, unpack
 from app.files import Frame, Unit, inspect_bytes
-from app.library import Library
+from app.history import History, version_of
 from app.pages import fresh_code
 from app.scene import VIEWS
+from app.shelving import Job, Shelving, copied
 from app.viewers import Viewer
 
 if TYPE_CHECKING:
@@ -21,9 +24,9 @@ if TYPE_CHECKING:
 class Seat:
     """The `Actions` of one tab; the session listens only to the one that works."""
 
-    def __init__(self, session: "Session", client_id: int) -> None:
+    def __init__(self, session: Session, client_id: int) -> None:
         self._session, self._client_id = session, client_id
-        self._kept: tuple[Document | None, str] = None, ""
+        self._kept: tuple[History | None, str] = None, ""
 
     def _post(self, act: Callable[[Desk, float], None]) -> None:
         self._session.post(self._client_id, act)
@@ -178,20 +181,75 @@ class Seat:
     def _open(self, opened: Document) -> None:
         """Put a skill on the desk, and the present one away."""
 
-        def open_it(desk: Desk, now: float) -> None:
+        def open_it(desk: Desk, now: float) -> Job | None:
             desk.let_go(now)
-            where = self._put_away(desk.store.document, self._session.workshop.library)
+            job = self._put_away(desk.store.history)
             desk.open(opened, now)
-            if where:
-                desk.say(where)
+            return job
 
-        self._post(open_it)
+        self._session.shelve(self._client_id, open_it)
 
-    def _put_away(self, document: Document, library: Library) -> str:
-        """Save one's own work under a code of its own; returns the sentence that says where."""
+    def _put_away(self, history: History) -> Job | None:
+        """Save one's own work under a code of its own, and say where it is."""
+        document = history.present.document
         if document.built_in or not document.demonstrations:
-            return ""
-        code = self._kept[1] if document is self._kept[0] else fresh_code()
-        library.save(code, document)
-        self._kept = document, code
-        return f"{document.title} is kept at /s/{code}. Undo brings it back here."
+            return None
+        code = self._kept[1] if history is self._kept[0] else fresh_code()
+        self._kept = history, code
+
+        def keep(shelving: Shelving) -> str:
+            shelving.put_away(code, history)
+            return f"{document.title} is kept in My skills, at /s/{code}. Undo brings it back here."
+
+        return keep
+
+    def go_back(self, stamp: int) -> None:
+        """See `Actions.go_back`."""
+
+        def go(desk: Desk, now: float) -> None:
+            version = version_of(desk.store.history, stamp)
+            if version is not None:
+                desk.edit(
+                    lambda _: version.document, f"go back to {version.name or 'the beginning'}", now=now
+                )
+
+        self._post(go)
+
+    def copy_version(self, stamp: int) -> None:
+        """See `Actions.copy_version`."""
+
+        def prepare(desk: Desk, _: float) -> Job | None:
+            version = version_of(desk.store.history, stamp)
+            return None if version is None else lambda shelving: copied(shelving, version.document)
+
+        self._session.shelve(self._client_id, prepare)
+
+    def copy_skill(self, code: str) -> None:
+        """See `Actions.copy_skill`."""
+
+        def copy(shelving: Shelving) -> str:
+            document = shelving.library.load(code)
+            return "This skill is gone." if document is None else copied(shelving, document)
+
+        self._shelve(copy)
+
+    def delete_skill(self, code: str) -> None:
+        """See `Actions.delete_skill`."""
+        self._shelve(
+            lambda shelving: _said(shelving.library.delete(code), "It is among the recently deleted.")
+        )
+
+    def restore_skill(self, code: str) -> None:
+        """See `Actions.restore_skill`."""
+        self._shelve(lambda shelving: _said(shelving.library.restore(code), "It is in My skills again."))
+
+    def forget_skill(self, code: str) -> None:
+        """See `Actions.forget_skill`."""
+        self._shelve(lambda shelving: _said(shelving.library.forget(code), "It is deleted for good."))
+
+    def _shelve(self, job: Job) -> None:
+        self._session.shelve(self._client_id, lambda _desk, _now: job)
+
+
+def _said(done: bool, words: str) -> str:
+    return words if done else "This skill is gone already."

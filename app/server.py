@@ -5,6 +5,7 @@ import logging
 import signal
 import threading
 import time
+from collections import deque
 from collections.abc import Callable, Sequence, Set
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -21,6 +22,7 @@ from app.document import Document
 from app.exports import is_skill, unpack
 from app.files import content_of, inspect
 from app.library import Library
+from app.pages import fresh_code
 from app.resources import static_folder
 from app.scene import draw_world, look_from_here
 from app.session import FORGOTTEN_AFTER, Session, Workshop
@@ -28,6 +30,13 @@ from gc_core import GcError
 
 MOST_SESSIONS: Final = 40
 """More people at once than one process can serve."""
+MOST_ISSUED: Final = 10_000
+"""Fresh codes that are remembered, to tell them from mistyped ones."""
+NOTHING_THERE: Final = (
+    "Nothing is saved under this address, so a new skill begins here. If you were given it, compare it "
+    "letter by letter: capitals count."
+)
+DELETED: Final = "This skill is among the recently deleted. The first change brings it back."
 _SWEEP: Final = 5.0
 """Forgotten sessions are looked for this often [s]."""
 
@@ -69,6 +78,7 @@ class Server:
         self._sessions: dict[str, Session] = {}
         self._lock = threading.Lock()
         self._closed = threading.Event()
+        self._issued: deque[str] = deque(maxlen=MOST_ISSUED)
         workers = ThreadPoolExecutor(2, thread_name_prefix="worker")
         static = static_folder()
         folder = static / "skills"
@@ -79,6 +89,7 @@ class Server:
             port=options.port,
             health=self._health,
             static=static,
+            new_code=self._fresh_code,
             on_refused=self._refused,
         )
         arm = make_arm()
@@ -127,7 +138,7 @@ class Server:
                 "**This page cannot be opened** because of a fault in the program. What was saved is kept."
             )
             return
-        session.attach(client)
+        session.attach(client, web.known_codes(client))
 
     def _disconnect(self, client: viser.ClientHandle) -> None:
         for session in tuple(self._sessions.values()):
@@ -139,10 +150,22 @@ class Server:
             if session is None:
                 if len(self._sessions) >= MOST_SESSIONS:
                     raise TooManySessionsError(len(self._sessions))
-                document = self._workshop.library.load(code) or self._first()
-                session = self._sessions[code] = Session(code, document, self._workshop)
+                session = self._sessions[code] = self._open(code)
             session.empty_since = None  # somebody is on the way
             return session
+
+    def _open(self, code: str) -> Session:
+        kept = self._workshop.library.open(code)
+        if kept is None:
+            said = "" if code in self._issued else NOTHING_THERE
+        else:
+            said = DELETED if kept.deleted else ""
+        return Session(code, kept or self._first(), self._workshop, said)
+
+    def _fresh_code(self) -> str:
+        code = fresh_code()
+        self._issued.append(code)
+        return code
 
     def _refused(self, client_id: int, name: str, size: int) -> None:
         limit = web.UPLOAD_LIMIT

@@ -5,8 +5,9 @@ workers plan the arm's path, read files and save. The code in the address names 
 session, so that a reload finds it again.
 """
 
+from __future__ import annotations
+
 import logging
-import threading
 import time
 from collections.abc import Callable, Sequence, Set
 from concurrent.futures import Executor
@@ -26,10 +27,13 @@ from app.document import Document, FloatArray
 from app.examining import Examining
 from app.exporting import Exporting
 from app.inquiry import Inquirer
-from app.library import Library, LibraryError
+from app.keeping import Keeper
+from app.lesson import tried
+from app.library import Kept, Library
 from app.planning import plan_run
 from app.seat import Seat
 from app.shaping import Shaping
+from app.shelving import Known, Prepare, Shelving
 from app.store import Plan, State
 from app.trials import Trials
 from app.viewers import Viewer
@@ -39,8 +43,6 @@ FORGOTTEN_AFTER: Final = 60.0
 """A session without a tab is closed after this time [s]."""
 LONGEST_TICK: Final = 0.2
 """After a longer time nothing was moving, and the clock starts anew [s]."""
-SAVE_AGAIN: Final = 5.0
-"""A save that failed is tried again after this time [s]."""
 IDLE_AFTER: Final = 180.0
 """Playback stops when nobody has done anything for this time [s]."""
 
@@ -63,13 +65,13 @@ class Workshop:
 class Session:
     """A desk, its mailbox, and the tabs that look at it."""
 
-    def __init__(self, code: str, document: Document, workshop: Workshop) -> None:
+    def __init__(self, code: str, opened: Kept | Document, workshop: Workshop, said: str = "") -> None:
         self.code: Final = code
         self.workshop: Final = workshop
         self.empty_since: float | None = time.monotonic()
         self._arm = workshop.make_arm()
         try:
-            self._desk = Desk(document, self._arm)
+            self._desk = Desk(opened.history if isinstance(opened, Kept) else opened, self._arm)
         except BaseException:
             self._arm.close()
             raise
@@ -77,12 +79,21 @@ class Session:
         self._works: int | None = None
         self._asked: tuple[Reproduction, Conditions] | None = None
         self._logged = ""
-        self._time = self._touched = self._save_after = self.clock()
-        self._writing = threading.Lock()
+        if said:
+            self._desk.say(said)
+        self._tried = opened.tried if isinstance(opened, Kept) else frozenset[str]()
+        self._drawn: Document | None = None
+        self._known: dict[int, Known] = {}
+        self._time = self._touched = self.clock()
         self._actor = Actor(tick=self._tick, draw=self._draw, report=self._report, name=f"session-{code}")
         self._plans = Latest(workshop.workers, self._actor)
-        self._saves = Latest(workshop.workers, self._actor)
+        self._shelving = Shelving(code, workshop.library, workshop.workers, self._actor)
+        jobs = (workshop.workers, self._actor)
+        self._keeper = Keeper(
+            code, self._desk, workshop.library, jobs, clock=self.clock, on_saved=self._shelving.look_up
+        )
         self._files = Latest(workshop.workers, self._actor)
+        self._copies = Latest(workshop.workers, self._actor)
         self._shaping = Shaping(workshop.workers, self._actor)
         self.exporting = Exporting(workshop.workers, self._actor, workshop.make_arm)
         self._examining = Examining(workshop.workers, self._actor, workshop.make_arm)
@@ -97,9 +108,9 @@ class Session:
 
     # --- tabs --------------------------------------------------------------------------
 
-    def attach(self, client: viser.ClientHandle) -> None:
-        """Show the session in a tab; the first one works, others watch."""
-        self._actor.post(lambda: self._attach(client))
+    def attach(self, client: viser.ClientHandle, known: Known) -> None:
+        """Show the session in a tab whose browser has these codes; the first one works, others watch."""
+        self._actor.post(lambda: self._attach(client, known))
 
     def detach(self, client_id: int) -> None:
         """A tab has gone; what it was pulling is let go."""
@@ -123,12 +134,13 @@ class Session:
         """Finish, save and stop."""
         self.trials.give_up()
         self.comparing.give_up()
-        self._actor.post(self._save_now)
+        self._actor.post(lambda: self._keeper.finish(self._tried))
         self._actor.post(self._arm.close)  # there, so that nobody else gets it while it is still used
         self._actor.close()
 
-    def _attach(self, client: viser.ClientHandle) -> None:
+    def _attach(self, client: viser.ClientHandle, known: Known) -> None:
         self.empty_since = None
+        self._known[client.client_id] = known
         self._touched = self.clock()
 
         @client.camera.on_update
@@ -143,6 +155,7 @@ class Session:
 
     def _work(self, client: viser.ClientHandle) -> None:
         self._works = client.client_id
+        self._shelving.look_for(self._known[client.client_id])
         seat = Seat(self, client.client_id)
         self._show(viewers.working(client, seat, self._arm, self.clock, self.workshop.skills))
 
@@ -150,8 +163,15 @@ class Session:
         def take_over() -> None:
             self._actor.post(lambda: self._take_over(client))
 
+        def copy(made: Callable[[str], None]) -> None:
+            self._actor.post(lambda: self._copy(made))
+
         seat = Seat(self, client.client_id)
-        self._show(viewers.watching(client, seat, self._arm, self.clock, take_over))
+        self._show(viewers.watching(client, seat, self._arm, self.clock, take_over=take_over, copy=copy))
+
+    def _copy(self, made: Callable[[str], None]) -> None:
+        document = self._desk.store.document
+        self._copies.submit(lambda: self._shelving.copy(document), made)
 
     def _show(self, viewer: Viewer) -> None:
         self._viewers[viewer.client.client_id] = viewer
@@ -173,6 +193,7 @@ class Session:
 
     def _detach(self, client_id: int) -> None:
         self._viewers.pop(client_id, None)
+        self._known.pop(client_id, None)
         if not self._viewers:
             self.empty_since = time.monotonic()
         if client_id == self._works:
@@ -213,6 +234,10 @@ class Session:
 
         self.post(client_id, look)
 
+    def shelve(self, client_id: int, prepare: Prepare) -> None:
+        """Let a worker do something with the saved skills, and say what came of it."""
+        self.post(client_id, lambda desk, now: self._shelving.do(prepare(desk, now), desk.say))
+
     def tell(self, client_id: int, message: str) -> None:
         """Show a warning to the tab that works here, if it is this one."""
         self.post(client_id, lambda desk, _: desk.say(message, warning=True))
@@ -226,21 +251,36 @@ class Session:
             return False
         if now - self._touched > IDLE_AFTER:
             self._desk.stage.pause()
-        return self._desk.tick(now, dt if dt < LONGEST_TICK else TICK)
+        moving = self._desk.tick(now, dt if dt < LONGEST_TICK else TICK)
+        return moving or self._keeper.saving != "saved"
 
     def _draw(self) -> None:
-        state = replace(self._desk.state(), shapes=self._shaping.shapes, parcel=self.exporting.parcel)
-        state = replace(state, postures=self._examining.postures, compared=self.comparing.follow(state))
+        state = self._state()
         try:
             for viewer in tuple(self._viewers.values()):
                 viewer.draw(state)
         finally:  # what cannot be drawn is saved all the same
-            self._save()
+            self._keeper.follow(state)
             leading = self._desk.leading
             self._inquirer.ask(leading.inquiry, lambda of, to: leading.answered(of, to, self.clock()))
             self._plan(state)
             self._shaping.follow(state)
             self._examining.follow(state)
+
+    def _state(self) -> State:
+        state = self._desk.state()
+        self._tried |= tried(self._drawn, state)
+        self._drawn = state.document
+        return replace(
+            state,
+            shapes=self._shaping.shapes,
+            parcel=self.exporting.parcel,
+            postures=self._examining.postures,
+            compared=self.comparing.follow(state),
+            saved=self._keeper.saving,
+            shelf=self._shelving.shelf,
+            tried=self._tried,
+        )
 
     def _plan(self, state: State) -> None:
         """Have a run checked that was not yet, one after the other; the one that is played comes first."""
@@ -267,42 +307,6 @@ class Session:
         if self._asked == asked:  # a job that failed stays asked for: it would fail again
             self._asked = None
         self._desk.accept_plan(plan)
-
-    def _save(self) -> None:
-        document = self._desk.store.document
-        if document is self._desk.saving or self.clock() < self._save_after:
-            return
-        self._desk.saving = document
-        self._saves.submit(lambda: self._write(document), lambda error: self._saved(document, error))
-
-    def _write(self, document: Document) -> LibraryError | None:
-        """Save, in whichever thread, unless a newer document was saved meanwhile."""
-        with self._writing:
-            if document is self._desk.saving:
-                try:
-                    self.workshop.library.save(self.code, document)
-                except LibraryError as error:
-                    return error
-            return None
-
-    def _saved(self, document: Document, error: LibraryError | None) -> None:
-        if error is None:
-            self._desk.saved = document if document is self._desk.saving else self._desk.saved
-            return
-        self._desk.saving = self._desk.saved
-        self._save_after = self.clock() + SAVE_AGAIN
-        raise error
-
-    def _save_now(self) -> None:
-        try:
-            self._desk.let_go(self.clock())
-        finally:
-            document = self._desk.store.document
-            if document is not self._desk.saved:
-                self._desk.saving = document
-                error = self._write(document)
-                if error is not None:  # nobody is there to be told
-                    _log.error("session %s is not saved: %s", self.code, error)
 
     def _report(self, error: Exception) -> None:
         if isinstance(error, GcError):

@@ -1,12 +1,13 @@
 """The committed document with its history, and the snapshot that is drawn.
 
-Undo is a list of documents: nothing has to know how to reverse itself. Edits with the
+Undo is a list of versions (`app.history`): nothing has to know how to reverse itself. Edits with the
 same key within a second are one step, because sliders never say when they are let go.
 """
 
+import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Final
+from dataclasses import dataclass
+from typing import Final, Literal, TypeAlias
 
 from app import edits
 from app.arm.conditions import Conditions
@@ -16,6 +17,8 @@ from app.arm.verdict import Verdict
 from app.compared import Compared
 from app.document import Document, FloatArray, View
 from app.files import Frame, Unit
+from app.history import History, begin
+from app.library import Summary
 from app.model import Model
 from app.parcel import Parcel
 from app.proposal import Correction, Proposal
@@ -26,8 +29,7 @@ from gc_core import Reproduction
 
 MERGE_WITHIN: Final = 1.0
 """Edits of one key closer together than this are one undo step [s]."""
-DEEPEST: Final = 300
-"""Undo steps that are kept."""
+Saving: TypeAlias = Literal["saved", "saving", "late"]
 LONGER: Final = 1.1
 """An arm that needs more than this times the taught duration is said to be slower."""
 
@@ -157,6 +159,25 @@ class Offer:
     frame_reason: str
 
 
+@dataclass(frozen=True)
+class Card:
+    """A saved skill as the list shows it."""
+
+    summary: Summary
+    drawing: str
+    """An ``<svg>`` element; empty for a skill without a tube."""
+
+
+@dataclass(frozen=True, eq=False)
+class Shelf:
+    """The saved skills that a person may open, the last saved first."""
+
+    here: str
+    """Code of the skill that is worked on."""
+    cards: tuple[Card, ...]
+    deleted: tuple[Summary, ...]
+
+
 @dataclass(frozen=True, eq=False)
 class State:
     """Everything that panels and scene draw; they read nothing else."""
@@ -201,26 +222,30 @@ class State:
     """Methods side by side on this skill, if it was asked."""
     stuck: bool = False
     """Whether the hand is, or was when it was let go, where only another posture of the arm comes."""
-    saved: bool = True
+    saved: Saving = "saved"
     """Whether the library holds the committed document."""
+    history: History | None = None
+    """The versions of this skill, one an undo step."""
+    shelf: Shelf | None = None
+    """The other skills that this person may open, once they have been looked up."""
+    tried: frozenset[str] = frozenset()
+    """Of the lesson, what was tried with this skill."""
 
 
-@dataclass(frozen=True, eq=False)
-class _Step:
-    name: str
-    before: Document
-    after: Document
-    key: str | None
-    time: float
-
-
-@dataclass
 class Store:
     """The document now, and the way back."""
 
-    document: Document
-    _done: list[_Step] = field(default_factory=list[_Step])
-    _undone: list[_Step] = field(default_factory=list[_Step])
+    def __init__(self, opened: Document | History, clock: Callable[[], float] = time.time) -> None:
+        """Begin a history, or go on with one; ``clock`` tells the time of day [s since 1970]."""
+        self._clock = clock
+        self.history = opened if isinstance(opened, History) else begin(opened, clock())
+        self._merging: tuple[str, float] | None = None
+        """Key and session time of the last edit, while it can be merged with."""
+
+    @property
+    def document(self) -> Document:
+        """What is worked on."""
+        return self.history.present.document
 
     def edit(
         self, f: Callable[[Document], Document], name: str, *, now: float, key: str | None = None
@@ -252,45 +277,35 @@ class Store:
         after = edits.edit(before, f)
         if after is before:
             return False
-        last = self._done[-1] if self._done else None
-        if key is not None and last is not None and last.key == key and now - last.time <= MERGE_WITHIN:
-            self._done[-1] = _Step(name, last.before, after, key, now)
-        else:
-            self._done = [*self._done[-(DEEPEST - 1) :], _Step(name, before, after, key, now)]
-        self._undone = []
-        self.document = after
+        last = self._merging
+        merged = key is not None and last is not None and last[0] == key and now - last[1] <= MERGE_WITHIN
+        self.history = self.history.after(after, name, self._clock(), instead=merged)
+        self._merging = None if key is None else (key, now)
         return True
 
-    def replace(self, document: Document, name: str, *, now: float) -> None:
+    def replace(self, document: Document, name: str) -> None:
         """Put another document in the place of this one, as a step that can be undone."""
-        self._done = [*self._done[-(DEEPEST - 1) :], _Step(name, self.document, document, None, now)]
-        self._undone = []
-        self.document = document
+        self.history = self.history.after(document, name, self._clock())
+        self._merging = None
 
     @property
     def undo_name(self) -> str | None:
         """What `undo` would take back."""
-        return self._done[-1].name if self._done else None
+        return self.history.undo_name
 
     @property
     def redo_name(self) -> str | None:
         """What `redo` would do again."""
-        return self._undone[-1].name if self._undone else None
+        return self.history.redo_name
 
     def undo(self) -> str | None:
         """Take the last edit back; returns its name, None when there is none."""
-        if not self._done:
-            return None
-        step = self._done.pop()
-        self._undone.append(step)
-        self.document = step.before
-        return step.name
+        name = self.history.undo_name
+        self.history, self._merging = self.history.back(), None
+        return name
 
     def redo(self) -> str | None:
         """Do the last undone edit again; returns its name, None when there is none."""
-        if not self._undone:
-            return None
-        step = self._undone.pop()
-        self._done.append(step)
-        self.document = step.after
-        return step.name
+        name = self.history.redo_name
+        self.history, self._merging = self.history.forth(), None
+        return name

@@ -69,9 +69,11 @@ def watching(
     actions: Actions,
     arm: Arm,
     clock: Callable[[], float],
+    *,
     take_over: Callable[[], None],
+    copy: Callable[[Callable[[str], None]], None],
 ) -> Viewer:
-    """Make a tab that watches another one work, and may take the work over."""
+    """Make a tab that watches another one work, and may take the work over or make a copy of it."""
     client.gui.reset()
     client.scene.reset()
-    return Viewer(client, Scene(client.scene, actions, arm, clock), WatchPanel(client.gui, take_over))
+    return Viewer(client, Scene(client.scene, actions, arm, clock), WatchPanel(client.gui, take_over, copy))

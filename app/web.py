@@ -34,7 +34,9 @@ from app.pages import (
     code_in_path,
     fresh_code,
     gather_style,
+    is_local,
     make_page,
+    opened_codes,
     same_origin,
     valid_code,
 )
@@ -45,6 +47,7 @@ __all__ = [
     "CannotListenError",
     "code_of",
     "fresh_code",
+    "known_codes",
     "low_latency",
     "open_server",
     "valid_code",
@@ -145,6 +148,21 @@ def code_of(client: viser.ClientHandle) -> str:
     return code
 
 
+def known_codes(client: viser.ClientHandle) -> frozenset[str] | None:
+    """The codes that a connected tab's browser has opened; None, all, on the server's own machine.
+
+    What the person sees in the address bar decides, not where the connection comes from: behind a
+    proxy everybody would seem to sit here.
+    """
+    connection = _connection(client)
+    request = None if connection is None else connection.request
+    if request is None:
+        return frozenset()
+    if is_local(_header(request, "Host") or ""):
+        return None
+    return frozenset(opened_codes(_header(request, "Cookie") or ""))
+
+
 def low_latency(client: viser.ClientHandle) -> None:
     """Let a tab on a slow line skip pictures rather than show old ones.
 
@@ -196,7 +214,8 @@ def _serving(listener: socket.socket, site: Site) -> Generator[None]:
 def _request_handler(site: Site) -> Callable[[ServerConnection, Request], Response | None]:
     def handle(_: ServerConnection, request: Request) -> Response | None:
         if (_header(request, "Upgrade") or "").lower() != "websocket":
-            return _response(answer(site, request.path), request)
+            cookies = _header(request, "Cookie") or ""
+            return _response(answer(site, request.path, cookies), request)
         if not same_origin(_header(request, "Origin"), _header(request, "Host")):
             return _response(Reply(HTTPStatus.FORBIDDEN, b"This page may not connect here.\n"), request)
         if code_in_path(request.path) is None:

@@ -21,6 +21,7 @@ VISER_USERS = ("server", "web", "guard", "session", "viewers", "binding", "panel
 LOWER_THAN = {
     # The direction of imports: a layer may import those before it, never those after it.
     "document": 0,
+    "history": 0,
     "edits": 1,
     "model": 1,
     "store": 1,
@@ -103,9 +104,9 @@ def test_the_arm_knows_neither_viser_nor_the_core_nor_the_rest_of_the_app() -> N
 
 
 @pytest.mark.parametrize("folder", ["files", "library"])
-def test_files_and_library_know_the_document_and_the_core_only(folder: str) -> None:
+def test_files_and_library_know_the_document_its_history_and_the_core_only(folder: str) -> None:
     def allowed(_: Path, module: str) -> bool:
-        return not module.startswith("app.") or part_of(module) in {folder, "document"}
+        return not module.startswith("app.") or part_of(module) in {folder, "document", "history"}
 
     assert offences(sources(f"app/{folder}"), allowed) == []
 

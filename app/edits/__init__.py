@@ -5,7 +5,7 @@ the store relies on that to tell a real edit from an echo of a widget. Input tha
 makes no sense raises an `EditError` that says what to do instead.
 """
 
-from app.edits.checks import LARGEST_COORDINATE, EditError, point
+from app.edits.checks import LARGEST_COORDINATE, LONGEST_NAME, EditError, point
 from app.edits.landmarks import (
     KIND_NAMES,
     MOST_LANDMARKS,
@@ -22,6 +22,7 @@ from app.edits.skill import (
     add_demonstrations,
     add_rule,
     add_start,
+    bring_back_demonstration,
     delete_demonstration,
     delete_rule,
     duplicate_demonstration,
@@ -56,6 +57,7 @@ from app.edits.things import (
 __all__ = [
     "KIND_NAMES",
     "LARGEST_COORDINATE",
+    "LONGEST_NAME",
     "MOST_LANDMARKS",
     "MOST_THINGS",
     "EditError",
@@ -64,6 +66,7 @@ __all__ = [
     "add_rule",
     "add_start",
     "add_thing",
+    "bring_back_demonstration",
     "delete_demonstration",
     "delete_rule",
     "duplicate_demonstration",

@@ -73,6 +73,13 @@ def add_demonstrations(document: Document, demonstrations: Sequence[Demonstratio
     return replace(document, demonstrations=document.demonstrations + named) if named else document
 
 
+def bring_back_demonstration(document: Document, shown: Shown) -> Document:
+    """Append a demonstration that was deleted, as it was; nothing changes where it is back already."""
+    if any(one.demonstration is shown.demonstration for one in document.demonstrations):
+        return document
+    return replace(document, demonstrations=(*document.demonstrations, shown))
+
+
 def replace_demonstration(document: Document, index: int, demonstration: Demonstration) -> Document:
     """Put a corrected demonstration in the place of its original."""
     shown = at(document.demonstrations, index, "demonstration")

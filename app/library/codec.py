@@ -43,6 +43,12 @@ KINDS: Final[Mapping[str, type]] = {
 }
 """The dataclasses that a document is made of; nothing else is ever built from saved data."""
 
+SHARED: Final = (Demonstration, Constraint)
+"""Those that copy their arrays: decoded once, they do so once for all versions of a skill."""
+
+Known: TypeAlias = dict[str, object]
+"""By their JSON."""
+
 
 @dataclass(frozen=True, eq=False)
 class Encoded:
@@ -77,7 +83,7 @@ def encode_document(document: Document, name_of: Callable[[Array], str] = conten
     return Encoded(text, arrays)
 
 
-def decode_document(text: str, arrays: Mapping[str, Array]) -> Document:
+def decode_document(text: str, arrays: Mapping[str, Array], known: Known | None = None) -> Document:
     """Put a document together again.
 
     Parameters
@@ -86,6 +92,9 @@ def decode_document(text: str, arrays: Mapping[str, Array]) -> Document:
         As `encode_document` made it.
     arrays : mapping of str to array
         At least those that `array_names` lists.
+    known : dict, optional
+        Demonstrations and constraints that were decoded before, which grows: versions of a skill
+        share what they have in common.
 
     Raises
     ------
@@ -94,7 +103,7 @@ def decode_document(text: str, arrays: Mapping[str, Array]) -> Document:
         there, or does not describe a document.
     """
     try:
-        document = _decode(_tree(text), arrays)
+        document = _decode(_tree(text), arrays, {} if known is None else known)
     except (KeyError, TypeError, ValueError, AttributeError, RecursionError) as error:
         if isinstance(error, UnreadableSkillError):
             raise
@@ -154,9 +163,9 @@ def _encode(value: object, name_of: Callable[[Array], str], arrays: dict[str, Ar
     raise TypeError(f"A document cannot be saved with a {kind} in it: add it to app.library.codec.KINDS.")
 
 
-def _decode(node: Any, arrays: Mapping[str, Array]) -> Any:
+def _decode(node: Any, arrays: Mapping[str, Array], known: Known) -> Any:
     if isinstance(node, list):
-        return tuple(_decode(item, arrays) for item in cast("list[Any]", node))
+        return tuple(_decode(item, arrays, known) for item in cast("list[Any]", node))
     if not isinstance(node, dict):
         return node
     ((tag, body),) = cast("dict[str, Any]", node).items()
@@ -167,7 +176,12 @@ def _decode(node: Any, arrays: Mapping[str, Array]) -> Any:
     kind = KINDS.get(tag)
     if kind is None:
         raise UnreadableSkillError(f"it holds a {tag[:40]}, which this version does not know")
-    return _build(kind, {name: _decode(item, arrays) for name, item in body.items()})
+    if kind not in SHARED:
+        return _build(kind, {name: _decode(item, arrays, known) for name, item in body.items()})
+    text = json.dumps(node)
+    if text not in known:
+        known[text] = _build(kind, {name: _decode(item, arrays, known) for name, item in body.items()})
+    return known[text]
 
 
 def _build(kind: type, values: dict[str, Any]) -> Any:

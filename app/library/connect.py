@@ -12,14 +12,16 @@ from pathlib import Path
 from typing import Any, Final
 
 from platformdirs import user_data_path
-from sqlalchemy import Connection, Engine, create_engine, event, make_url
+from sqlalchemy import URL, Connection, Engine, create_engine, event, make_url
 from sqlalchemy.exc import ArgumentError, DatabaseError, NoSuchModuleError, SQLAlchemyError
 from sqlalchemy.pool import ConnectionPoolEntry, StaticPool
 
 from app.library.errors import ForeignDatabaseError, LibraryError
-from app.library.tables import prepare
+from app.library.upgrade import prepare
 
 VARIABLE: Final = "GC_TEACH_LIBRARY"
+LOCK: Final = 0x6C_74_65_61
+"""Number of the lock that libraries in PostgreSQL share."""
 
 
 def default_url() -> str:
@@ -48,11 +50,12 @@ def open_engine(url: str) -> Engine:
     if backend not in ("sqlite", "postgresql"):
         raise LibraryError(f"{where}: a library is kept in SQLite or PostgreSQL, not in {backend}.")
     try:
-        engine = _sqlite(address.database) if backend == "sqlite" else create_engine(address)
+        engine = _sqlite(address.database) if backend == "sqlite" else _postgresql(address)
         _prepare(engine, where)
     except (ImportError, NoSuchModuleError) as error:
         raise LibraryError(
-            f"{where}: the driver of this database is missing ({error}). Install it, for instance psycopg."
+            f"{where}: the driver of this database is missing ({error}). "
+            "Install it with: pip install 'gc-teach[postgres]'."
         ) from error
     except DatabaseError as error:
         if "not a database" in str(error.orig):
@@ -87,6 +90,19 @@ def _sqlite(database: str | None) -> Engine:
     event.listen(engine, "connect", _set_up_connection)
     event.listen(engine, "begin", _begin)
     return engine
+
+
+def _postgresql(address: URL) -> Engine:
+    if address.drivername == "postgresql":
+        address = address.set(drivername="postgresql+pg8000")
+    engine = create_engine(address)
+    event.listen(engine, "begin", _wait_in_turn)
+    return engine
+
+
+def _wait_in_turn(connection: Connection) -> None:
+    """One transaction at a time, as in SQLite: whoever drops an array that nobody needs must be alone."""
+    connection.exec_driver_sql(f"SELECT pg_advisory_xact_lock({LOCK})")
 
 
 def _set_up_connection(connection: Any, _entry: ConnectionPoolEntry) -> None:

@@ -1,8 +1,8 @@
 """The tables of a library, and the two statements that differ between databases.
 
-``meta`` holds the version of these tables. A skill's document is small JSON; its
-arrays lie in ``arrays`` under their content hash, once for all skills, and
-``uses`` says which skill needs which.
+``meta`` holds the version of these tables. A skill is a list of versions, ``steps``: each
+is small JSON whose arrays lie in ``arrays`` under their content hash, once for all skills,
+and ``uses`` says which step needs which. `app.library.upgrade` brings older tables here.
 """
 
 from __future__ import annotations
@@ -11,24 +11,22 @@ from collections.abc import Sequence
 from typing import Any, Final
 
 from sqlalchemy import (
+    BigInteger,
     Column,
     Connection,
     Float,
     ForeignKey,
+    ForeignKeyConstraint,
     Index,
     LargeBinary,
     MetaData,
     String,
     Table,
     Text,
-    inspect,
-    select,
 )
 from sqlalchemy.dialects import postgresql, sqlite
 
-from app.library.errors import ForeignDatabaseError
-
-SCHEMA: Final = "1"
+SCHEMA: Final = "2"
 """Version of these tables."""
 
 metadata = MetaData()
@@ -43,8 +41,19 @@ skills = Table(
     metadata,
     Column("code", String(64), primary_key=True),
     Column("title", Text, nullable=False),
-    Column("document", Text, nullable=False),
     Column("updated", Float, nullable=False, index=True),  # [s] since 1970, UTC
+    Column("present", BigInteger, nullable=False),  # stamp of the step that is worked on
+    Column("deleted", Float),  # [s] since 1970, UTC; null: it is not
+    Column("tried", Text, nullable=False, server_default=""),  # of the lesson; words with spaces between
+    Column("drawing", Text),  # <svg> of the tube; null: not drawn yet
+)
+steps = Table(
+    "steps",
+    metadata,
+    Column("code", String(64), ForeignKey("skills.code", ondelete="CASCADE"), primary_key=True),
+    Column("stamp", BigInteger, primary_key=True, autoincrement=False),  # [us] since 1970, UTC
+    Column("name", Text, nullable=False),
+    Column("document", Text, nullable=False),
 )
 arrays = Table(
     "arrays",
@@ -53,36 +62,17 @@ arrays = Table(
     Column("dtype", String(16), nullable=False),
     Column("shape", String(128), nullable=False),  # JSON list
     Column("bytes", LargeBinary, nullable=False),
+    Column("packing", String(16), nullable=False, server_default=""),  # see app.library.packing
 )
 uses = Table(
     "uses",
     metadata,
-    Column("code", String(64), ForeignKey("skills.code", ondelete="CASCADE"), primary_key=True),
+    Column("code", String(64), primary_key=True),
+    Column("stamp", BigInteger, primary_key=True, autoincrement=False),
     Column("hash", String(64), ForeignKey("arrays.hash"), primary_key=True),
+    ForeignKeyConstraint(["code", "stamp"], ["steps.code", "steps.stamp"], ondelete="CASCADE"),
     Index("uses_hash", "hash"),
 )
-
-
-def prepare(connection: Connection, where: str) -> None:
-    """Create the tables in an empty database; accept none but our own in another.
-
-    Raises
-    ------
-    ForeignDatabaseError
-        Before anything is written, if the database holds other tables or tables of another version.
-    """
-    present = set(inspect(connection).get_table_names())
-    if not present:
-        metadata.create_all(connection)
-        connection.execute(meta.insert().values(key="schema", value=SCHEMA))
-        return
-    if "meta" not in present or not set(metadata.tables) <= present:
-        raise ForeignDatabaseError(where, "is a database of another program")
-    version = connection.execute(select(meta.c.value).where(meta.c.key == "schema")).scalar()
-    if version != SCHEMA:
-        raise ForeignDatabaseError(
-            where, f"holds skills in version {version} of the tables, and this program knows version {SCHEMA}"
-        )
 
 
 def insert_new(connection: Connection, table: Table, rows: Sequence[dict[str, Any]]) -> None:

@@ -1,7 +1,7 @@
 """Everything around the 3-D view: composition only; each part knows the `State` and the `Actions`.
 
-Right: the skill and the tabs Teach, Try, Move, Fix, Compare. Left: the lesson and the slice at the
-playhead. Floating at the bottom: the timeline.
+Right: the skill and the tabs Teach, Try, Move, Fix, Compare. Left: the lesson, the saved skills
+and the slice at the playhead. Floating at the bottom: the timeline.
 """
 
 from collections.abc import Sequence
@@ -11,6 +11,7 @@ import viser
 
 from app.actions import Actions
 from app.panels.compare import ComparePanel
+from app.panels.deleted import DeletedPanel
 from app.panels.demonstrations import DemonstrationsPanel
 from app.panels.encoding import EncodingPanel
 from app.panels.export import ExportPanel
@@ -28,6 +29,7 @@ from app.panels.proposal import ProposalPanel
 from app.panels.replay import ReplayPanel
 from app.panels.reposition import RepositionPanel
 from app.panels.rules import RulesPanel
+from app.panels.skills import SkillsPanel
 from app.panels.slice import SlicePanel
 from app.panels.smoothing import SmoothingPanel
 from app.panels.starts import StartsPanel
@@ -38,6 +40,7 @@ from app.panels.timeline import TimelinePanel
 from app.panels.tool import ToolPanel
 from app.panels.tries import TriesPanel
 from app.panels.verdict import VerdictPanel
+from app.panels.versions import VersionsPanel
 from app.store import State
 
 MAIN_WIDTH: Final = 320
@@ -133,12 +136,18 @@ def _side(gui: viser.GuiApi, actions: Actions) -> tuple[Panel, ...]:
     upper, lower = gui.add_panel(), gui.add_panel()
     with upper.add_tab("Lesson", viser.Icon.SCHOOL):
         lesson = LessonPanel(gui, actions)
+    with upper.add_tab("My skills", viser.Icon.FOLDER):
+        mine: tuple[Panel, ...] = (
+            SkillsPanel(gui, actions),
+            VersionsPanel(gui, actions),
+            DeletedPanel(gui, actions),
+        )
     with lower.add_tab("Slice (cross-section)", viser.Icon.CIRCLE_DASHED):
         section = SlicePanel(gui)
     upper.dock_left()
     upper.set_width(SIDE_WIDTH)
     lower.dock_below(upper)
-    return (lesson, section)
+    return (lesson, *mine, section)
 
 
 def _timeline(gui: viser.GuiApi, actions: Actions) -> Panel:

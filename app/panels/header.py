@@ -9,14 +9,21 @@ import viser
 from app import edits
 from app.actions import Actions
 from app.binding import QUIET, Binding, assign, on_press, one_of
+from app.panels import words
 from app.store import State
 
 CHOOSE: Final = "another skill…"
 OWN: Final = "Teach your own"
+SAVED: Final = {
+    "saved": words.note('<span style="opacity:0.7">Saved</span>'),
+    "saving": words.note('<span style="opacity:0.7">Saving…</span>'),
+    "late": words.note("Not saved yet. It is tried again.", color=words.AMBER),
+}
+"""What is said under the buttons; a check reads the first."""
 
 
 class HeaderPanel:
-    """Name of the skill, menu of skills, undo and redo."""
+    """Name of the skill, menu of skills, undo and redo, and whether it is saved."""
 
     def __init__(self, gui: viser.GuiApi, actions: Actions, skills: Sequence[tuple[str, str]]) -> None:
         title = gui.add_text(
@@ -41,6 +48,7 @@ class HeaderPanel:
         )
         self._undo = gui.add_button("Undo", icon=viser.Icon.ARROW_BACK_UP, color=QUIET, disabled=True)
         self._redo = gui.add_button("Redo", icon=viser.Icon.ARROW_FORWARD_UP, color=QUIET, visible=False)
+        self._saved = gui.add_html("")
         on_press(self._undo, actions.undo)
         on_press(self._redo, actions.redo)
 
@@ -51,3 +59,4 @@ class HeaderPanel:
         undo, redo = state.undo_name, state.redo_name
         assign(self._undo, label=f"Undo: {undo}" if undo else "Undo", disabled=undo is None)
         assign(self._redo, label=f"Redo: {redo}" if redo else "Redo", visible=redo is not None)
+        assign(self._saved, content=SAVED[state.saved])

@@ -46,6 +46,11 @@ def escape_line(line: str) -> str:
     return _escape(line)
 
 
+def link(code: str, html: str) -> str:
+    """A link to a skill's own page; beside this one, so that it also holds behind a proxy."""
+    return f'<a href="{code}" style="color:inherit">{html}</a>'
+
+
 def note(text: str, *, strong: bool = False, color: str = "inherit") -> str:
     """One paragraph of small print as HTML; ``text`` is HTML already."""
     weight = "600" if strong else "400"

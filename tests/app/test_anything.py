@@ -7,7 +7,7 @@ import pytest
 
 from app import edits, placing
 from app.desk import Desk
-from app.store import DEEPEST
+from app.history import DEEPEST
 from tests.app.makers import Mouse, desk_of
 
 KINDS = ("/hand", "/landmarks/start", "/landmarks/goal", "/start/0", "/demonstrations/0", "/reproductions/0")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from app import edits
-from app.document import Document, Place
+from app.document import Document, Place, Shown
 from app.edits import EditError
 from app.measures import measures, turn_of
 from gc_core import GcError, same_content
@@ -30,6 +30,7 @@ CHANGES: dict[str, Edit] = {
     "mute_demonstration": lambda d: edits.mute_demonstration(d, 1, True),
     "duplicate_demonstration": lambda d: edits.duplicate_demonstration(d, 1),
     "delete_demonstration": lambda d: edits.delete_demonstration(d, 1),
+    "bring_back_demonstration": lambda d: edits.bring_back_demonstration(d, Shown(demonstration(7))),
     "trim_demonstration": lambda d: edits.trim_demonstration(d, 1, 0.5, 2.0),
     "add_start": lambda d: edits.add_start(d, ELSEWHERE),
     "move_start": lambda d: edits.move_start(d, 0, ELSEWHERE),
@@ -71,6 +72,7 @@ SAME: dict[str, Edit] = {
         d, 1, d.demonstrations[1].demonstration.name
     ),
     "mute_demonstration": lambda d: edits.mute_demonstration(d, 1, False),
+    "bring_back_demonstration": lambda d: edits.bring_back_demonstration(d, d.demonstrations[1]),
     "trim_demonstration": lambda d: edits.trim_demonstration(d, 1, 0.0, 99.0),
     "move_start": lambda d: edits.move_start(d, 0, d.starts[0].copy()),
     "move_landmark": lambda d: edits.move_landmark(d, "goal", d.landmarks[1].now),

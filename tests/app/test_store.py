@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from app import edits
 from app.edits import EditError
-from app.store import DEEPEST, MERGE_WITHIN, Store
+from app.history import DEEPEST
+from app.store import MERGE_WITHIN, Store
 from tests.app.makers import taught
 
 STEPS = st.lists(
@@ -122,7 +123,7 @@ def test_an_edit_that_fails_changes_neither_document_nor_history() -> None:
 def test_opening_another_skill_is_a_step() -> None:
     store = Store(taught())
     before, other = store.document, taught(2)
-    store.replace(other, "open another", now=0.0)
+    store.replace(other, "open another")
 
     assert (store.document, store.undo_name) == (other, "open another")
     store.undo()

@@ -296,7 +296,7 @@ def test_the_default_is_a_file_of_the_user_unless_the_environment_names_another(
 
 def test_an_unchanged_array_is_not_hashed_again(monkeypatch: pytest.MonkeyPatch) -> None:
     hashed: list[int] = []
-    monkeypatch.setattr("app.library.library.content_hash", lambda array: hashed.append(array.size) or "name")
+    monkeypatch.setattr("app.library.packing.content_hash", lambda array: hashed.append(array.size) or "name")
     names, array = ArrayNames(), demonstration().positions
 
     assert names(array) == names(array) == "name"

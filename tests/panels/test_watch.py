@@ -12,7 +12,7 @@ from tests.support.fake_client import FakeClient
 
 
 def test_a_title_is_shown_as_it_was_typed_and_not_as_markdown(server: viser.ViserServer) -> None:
-    panel = WatchPanel(server.gui, lambda: None)
+    panel = WatchPanel(server.gui, lambda: None, lambda _: None)
     title = "![seen](http://elsewhere.example/seen.png)<b>"
 
     panel.draw(state_of(replace(taught(), title=title)))

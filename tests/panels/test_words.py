@@ -9,8 +9,9 @@ import pytest
 
 from app import bending, edits
 from app.document import Document, Shown
+from app.lesson import first_minute, tried
 from app.panels import words
-from app.panels.lesson import first_minute, page, tried
+from app.panels.lesson import page
 from app.panels.smoothing import facts
 from app.panels.status import status
 from app.store import Hand

@@ -1,0 +1,81 @@
+"""A menu of things that come and go, and a question before something is lost."""
+
+from collections.abc import Callable, Sequence
+from datetime import datetime
+from typing import Any, Final, Generic, TypeVar
+
+import viser
+
+from app.binding import assign, on_choice
+from app.panels import words
+
+T = TypeVar("T")
+
+NO: Final = "No"
+
+
+class Menu(Generic[T]):
+    """Offers things by name; equal names are numbered. The first is chosen until a person chooses."""
+
+    def __init__(self, gui: viser.GuiApi, label: str, hint: str) -> None:
+        self._named: dict[str, T] = {}
+        self._widget = gui.add_dropdown(label, ("",), initial_value="", hint=hint, visible=False)
+
+        async def changed(event: viser.GuiEvent[Any]) -> None:
+            if event.client is not None and event.target.value not in self._named:
+                event.target.value = next(iter(self._named), "")
+
+        self._widget.on_update(changed)
+
+    @property
+    def chosen(self) -> T | None:
+        """What is chosen; None when there is nothing to choose."""
+        return self._named.get(self._widget.value)
+
+    def offer(self, things: Sequence[tuple[str, T]]) -> None:
+        """Offer these, the likeliest first; what was chosen stays chosen if it is among them."""
+        named: dict[str, T] = {}
+        for name, thing in things:
+            number, label = 2, name
+            while label in named:
+                number, label = number + 1, f"{name} ({number})"
+            named[label] = thing
+        if tuple(named) != tuple(self._named):
+            assign(self._widget, options=tuple(named) or ("",), visible=bool(named))
+        self._named = named
+
+
+class Question:
+    """Asks once more before something is lost."""
+
+    def __init__(self, gui: viser.GuiApi) -> None:
+        self._text = gui.add_html("", visible=False)
+        self._answers = gui.add_button_group("", ("Yes", NO), visible=False)
+        self._action: Callable[[], None] | None = None
+        on_choice(self._answers, self._answered)
+
+    def ask(self, question: str, yes: str, action: Callable[[], None]) -> None:
+        """Show the question and do something if it is answered with ``yes``."""
+        self._action = action
+        assign(self._answers, options=(yes, NO), visible=True)
+        assign(self._text, content=words.note(words.escape(question), color=words.AMBER), visible=True)
+
+    def withdraw(self) -> None:
+        """Ask no longer."""
+        self._action = None
+        assign(self._text, visible=False)
+        assign(self._answers, visible=False)
+
+    def _answered(self, place: int) -> None:
+        action = self._action
+        self.withdraw()
+        if place == 0 and action is not None:
+            action()
+
+
+def when(time: datetime, now: datetime) -> str:
+    """Say when something was, on the server's clock: 14:05 of this day, 3 Nov 14:05 of another."""
+    time, now = time.astimezone(), now.astimezone()
+    if time.date() == now.date():
+        return f"{time:%H:%M}"
+    return f"{time.day} {time:%b %H:%M}" if time.year == now.year else f"{time.day} {time:%b %Y}"
