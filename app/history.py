@@ -6,8 +6,9 @@ the stamps of their versions.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 from typing import Final
 
@@ -15,6 +16,8 @@ from app.document import Document, Shown
 
 DEEPEST: Final = 300
 """Undo steps that are kept."""
+DELETE: Final = "delete "
+"""So begins the name of every edit that deletes a demonstration."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +28,13 @@ class Version:
     """When it was made [us since 1970, UTC], and its name: no two versions of a skill share one."""
     name: str
     """Of the edit, for instance ``move goal``; empty for the first version."""
-    document: Document
+    source: Document | Callable[[], Document]
+    """The document, or how it is read when it is asked for the first time."""
+
+    @cached_property
+    def document(self) -> Document:
+        """The skill as it was; what cannot be read raises a `GcError` that says so."""
+        return self.source if isinstance(self.source, Document) else self.source()
 
     @property
     def made(self) -> float:
@@ -100,6 +109,8 @@ def deleted_demonstrations(history: History) -> tuple[Shown, ...]:
     present = history.present.document.demonstrations
     found: list[Shown] = []
     for former, later in pairwise(history.versions[: history.place + 1]):
+        if not later.name.startswith(DELETE):  # documents that are not needed are not read
+            continue
         before, after = former.document, later.document
         gone = [shown for shown in before.demonstrations if not _among(shown, after.demonstrations)]
         if len(gone) == 1 and len(after.demonstrations) == len(before.demonstrations) - 1:

@@ -199,7 +199,7 @@ class Seat:
 
         def keep(shelving: Shelving) -> str:
             shelving.put_away(code, history)
-            return f"{document.title} is kept in My skills, at /s/{code}. Undo brings it back here."
+            return f"{document.title} is kept at /s/{code} and in My skills. Undo brings it back here."
 
         return keep
 

@@ -20,6 +20,8 @@ from app.library.errors import ForeignDatabaseError, LibraryError
 from app.library.upgrade import prepare
 
 VARIABLE: Final = "GC_TEACH_LIBRARY"
+LOG_PAGES: Final = 200
+"""The write-ahead log is moved into the file when it has so many pages [4 kB]."""
 LOCK: Final = 0x6C_74_65_61
 """Number of the lock that libraries in PostgreSQL share."""
 
@@ -108,6 +110,7 @@ def _wait_in_turn(connection: Connection) -> None:
 def _set_up_connection(connection: Any, _entry: ConnectionPoolEntry) -> None:
     connection.execute("PRAGMA foreign_keys = ON")
     connection.execute("PRAGMA synchronous = NORMAL")
+    connection.execute(f"PRAGMA wal_autocheckpoint = {LOG_PAGES}")
 
 
 def _begin(connection: Connection) -> None:

@@ -13,6 +13,7 @@ from collections.abc import Callable, Collection, Generator, Iterable
 from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from functools import partial
 from threading import Lock
 from typing import Any, Final
 
@@ -24,7 +25,7 @@ from app.history import History, Version, begin
 from app.library.codec import Array, Known, decode_document, encode_document
 from app.library.connect import open_engine
 from app.library.errors import BadCodeError, LibraryError
-from app.library.packing import ArrayNames, array_of, row_of
+from app.library.packing import ArrayNames, Packed, row_of
 from app.library.tables import arrays, insert_new, skills, steps, upsert, uses
 
 KEPT_DELETED: Final = 30 * 24 * 3600.0
@@ -156,9 +157,13 @@ class Library:
             numbers = _arrays_of(connection, uses.c.code == code)
         known: Known = {}
         versions = tuple(
-            Version(row.stamp, row.name, decode_document(row.document, numbers, known)) for row in rows
+            Version(row.stamp, row.name, partial(decode_document, row.document, numbers, known))
+            for row in rows
         )
         place = [version.stamp for version in versions].index(skill.present)
+        _ = versions[
+            place
+        ].document  # now, so that whoever opens it is told; the others when they are asked for
         return Kept(History(versions, place), frozenset(skill.tried.split()), skill.deleted is not None)
 
     def recent(self, limit: int = 20, among: Collection[str] | None = None) -> list[Summary]:
@@ -248,7 +253,9 @@ class Library:
         with self._transaction("read") as connection:
             rows = connection.execute(query).all()
         return [
-            Summary(row.code, row.title, _time(row.updated), row.deleted and _time(row.deleted))
+            Summary(
+                row.code, row.title, _time(row.updated), None if row.deleted is None else _time(row.deleted)
+            )
             for row in rows
         ]
 
@@ -286,11 +293,10 @@ def _time(seconds: float) -> datetime:
     return datetime.fromtimestamp(seconds, UTC)
 
 
-def _arrays_of(connection: Connection, *which: Any) -> dict[str, Array]:
+def _arrays_of(connection: Connection, *which: Any) -> Packed:
     names = select(uses.c.hash).where(*which)
-    return {
-        row.hash: array_of(row) for row in connection.execute(select(arrays).where(arrays.c.hash.in_(names)))
-    }
+    rows = connection.execute(select(arrays).where(arrays.c.hash.in_(names)))
+    return Packed({row.hash: row for row in rows})
 
 
 def _remove(connection: Connection, code: str, stamps: set[int]) -> None:

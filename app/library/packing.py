@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import weakref
 import zlib
+from collections.abc import Iterator, Mapping
 from threading import Lock
 from typing import Any, Final
 
@@ -82,6 +83,28 @@ def array_of(row: Row[Any]) -> Array:
         return np.frombuffer(content, dtype=kind).reshape(shape)
     except (ValueError, TypeError, zlib.error) as error:
         raise UnreadableSkillError(f"the numbers {values.hash[:12]} are damaged") from error
+
+
+class Packed(Mapping[str, Array]):
+    """Arrays by name, unpacked when they are asked for: most versions of a skill never are."""
+
+    def __init__(self, rows: Mapping[str, Row[Any]]) -> None:
+        self._rows = rows
+        self._arrays: dict[str, Array] = {}
+
+    def __getitem__(self, name: str) -> Array:
+        """Unpack one; raises as `array_of`."""
+        if name not in self._arrays:
+            self._arrays[name] = array_of(self._rows[name])
+        return self._arrays[name]
+
+    def __iter__(self) -> Iterator[str]:
+        """List the names."""
+        return iter(self._rows)
+
+    def __len__(self) -> int:
+        """Count them."""
+        return len(self._rows)
 
 
 def _unpacked(packed: bytes, itemsize: int, size: int) -> bytes:

@@ -10,6 +10,7 @@ from app.actions import Actions
 from app.advising import FAULT_WORDS, Noted
 from app.binding import QUIET, Binding, Changed, Rows, anything, assign, name_field, on_choice, on_press
 from app.document import Document, Shown
+from app.history import DELETE as DELETE_STEP
 from app.panels import words
 from app.store import State
 from gc_core import Demonstration
@@ -147,7 +148,9 @@ class DemonstrationRow:
         )
 
     def _delete(self) -> None:
-        self._actions.edit(partial(_at, self._shown, edits.delete_demonstration), f"delete {self._title}")
+        self._actions.edit(
+            partial(_at, self._shown, edits.delete_demonstration), f"{DELETE_STEP}{self._title}"
+        )
 
 
 def _at(shown: Shown | None, change: Callable[[Document, int], Document], document: Document) -> Document:

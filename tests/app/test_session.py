@@ -7,12 +7,13 @@ import re
 import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
-from app.document import Document
 from app.edits import EditError
+from app.history import History
 from app.library import Library, LibraryError
 from app.server import Server
 from app.viewers import Viewer
@@ -260,17 +261,17 @@ def test_the_work_is_saved_after_the_gesture(client: FakeClient, library: str, c
 def test_work_that_cannot_be_drawn_is_saved_all_the_same(
     client: FakeClient, code: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    written, save = threading.Event(), Library.save
+    written, keep = threading.Event(), Library.keep
 
-    def noted(self: Library, under: str, document: Document) -> None:
-        save(self, under, document)
-        if under == code and len(document.demonstrations) == 4:
+    def noted(self: Library, under: str, history: History, **more: Any) -> None:
+        keep(self, under, history, **more)
+        if under == code and len(history.present.document.demonstrations) == 4:
             written.set()
 
     def broken(*_: object) -> None:
         raise ValueError("a picture that cannot be drawn")
 
-    monkeypatch.setattr(Library, "save", noted)
+    monkeypatch.setattr(Library, "keep", noted)
     monkeypatch.setattr(Viewer, "draw", broken)
     pull(client, "/hand", (0.10, 0.05, -0.08), events=10)
 
@@ -280,11 +281,11 @@ def test_work_that_cannot_be_drawn_is_saved_all_the_same(
 def test_a_last_save_that_fails_is_said_in_the_log(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    def full(*_: object) -> None:
+    def full(*_: object, **__: object) -> None:
         raise LibraryError("The disk is full.")
 
     with serving(library_in(tmp_path)) as server, tab(server, "never-saved-0001") as client:
-        monkeypatch.setattr(Library, "save", full)
+        monkeypatch.setattr(Library, "keep", full)
         pull(client, "/landmarks/goal", BY, let_go=False)
         client.wait(dragging)
 
