@@ -1,0 +1,102 @@
+"""A server that is killed in the middle of anything loses at most the gesture in progress."""
+
+from __future__ import annotations
+
+import random
+import threading
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+from websockets.exceptions import ConnectionClosed
+
+from app.document import Document
+from app.library import Library
+from tests.app.site import FIRST_SCREEN, library_in, pull
+from tests.support.databases import sound
+from tests.support.fake_client import FakeClient
+from tests.support.killable import Killable
+
+CODE = "killed-again-and-again"
+GOAL, START = "/landmarks/goal", "/start/0"
+LONGEST = 1.2
+"""A server lives at most so long after the first screen is there [s]."""
+
+
+def steps(client: FakeClient) -> int:
+    """Undo steps that the tab lists."""
+    return sum(bool(option) for option in client.element("Version", "Dropdown").props["options"])
+
+
+def places(client: FakeClient) -> np.ndarray:
+    """(2, 3) where the tab shows goal and start [m]."""
+    return np.array([client.world_position(GOAL), client.world_position(START)])
+
+
+def places_in(document: Document) -> np.ndarray:
+    """(2, 3) where a saved document has them [m]; NaN where they were never moved."""
+    (goal,) = (place.now for place in document.landmarks if place.name == "goal")
+    return np.array([np.full(3, np.nan) if goal is None else goal, document.starts[0]])
+
+
+def work(client: FakeClient, dice: random.Random) -> list[np.ndarray]:
+    """Pull at things until the server is gone; what was shown as saved, each time it was."""
+    acknowledged: list[np.ndarray] = []
+    try:
+        while client.closed is None:
+            before = steps(client)
+            pull(client, dice.choice((GOAL, START)), [dice.uniform(-0.02, 0.02) for _ in range(3)], events=4)
+            done = client.wait(
+                lambda c, n=before: "saved" if steps(c) > n and "Saved" in c.text() else c.closed
+            )
+            if done == "saved":
+                acknowledged.append(places(client))
+    except ConnectionClosed:
+        pass
+    return acknowledged
+
+
+def missing(saved: Sequence[Document], acknowledged: list[np.ndarray]) -> list[np.ndarray]:
+    """What was acknowledged and is in no saved version."""
+    found = [places_in(document) for document in saved]
+
+    def held(shown: np.ndarray) -> bool:
+        return any(np.all(np.isnan(one) | (np.abs(one - shown) < 1e-6)) for one in found)
+
+    return [shown for shown in acknowledged if not held(shown)]
+
+
+def kill_and_look(folder: Path, dice: random.Random, acknowledged: list[np.ndarray]) -> None:
+    """One life of a server; ``acknowledged`` grows by what it said to have saved."""
+    server = Killable(library_in(folder))
+    end = threading.Timer(dice.uniform(0.0, LONGEST), server.kill)
+    try:
+        with FakeClient(f"ws://127.0.0.1:{server.port}/s/{CODE}") as client:
+            client.wait_nodes(*FIRST_SCREEN)
+            end.start()
+            acknowledged += work(client, dice)
+    finally:
+        end.cancel()
+        server.kill()
+    assert sound(folder / "library.db")
+    library = Library(library_in(folder))
+    kept = library.open(CODE)
+    saved = [] if kept is None else [version.document for version in kept.history.versions]
+    library.close()
+    assert missing(saved, acknowledged) == []
+
+
+@pytest.mark.parametrize(
+    ("lives", "enough"),
+    [pytest.param(5, 2, id="some"), pytest.param(50, 50, id="many", marks=pytest.mark.soak)],
+)
+def test_all_that_was_said_to_be_saved_is_there_after_each_kill(
+    tmp_path: Path, lives: int, enough: int
+) -> None:
+    dice = random.Random(lives)
+    acknowledged: list[np.ndarray] = []
+    for _ in range(lives):
+        kill_and_look(tmp_path, dice, acknowledged)
+
+    assert len(acknowledged) >= enough
