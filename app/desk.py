@@ -37,12 +37,11 @@ class Desk:
     def __init__(self, opened: Document | History, arm: Arm) -> None:
         """Open a document, with its history or without; its first reproduction plays."""
         self.store = Store(opened)
-        document = self.store.document
         self.view = View()
-        self.model = learn(document)
+        self.model = learn(self.store.document)
         self.stage = Stage(arm)
         self._offering = Offering()
-        self.message, self.warning = document.about, False
+        self.message, self.warning = self.store.document.about, False
         self._held: Grasp | None = None
         self.amending = Amending(self.stage, self.store)
         self.leading = Leading(self)

@@ -19,7 +19,6 @@ import viser
 
 from app import viewers
 from app.actor import TICK, Actor, Latest
-from app.arm.conditions import Conditions
 from app.arm.protocol import Arm
 from app.comparing import Comparing
 from app.desk import Desk
@@ -30,14 +29,14 @@ from app.inquiry import Inquirer
 from app.keeping import Keeper
 from app.lesson import tried
 from app.library import Kept, Library
-from app.planning import plan_run
+from app.plans import Plans
 from app.seat import Seat
 from app.shaping import Shaping
 from app.shelving import Known, Prepare, Shelving
-from app.store import Plan, State
+from app.store import State
 from app.trials import Trials
 from app.viewers import Viewer
-from gc_core import GcError, Reproduction
+from gc_core import GcError
 
 FORGOTTEN_AFTER: Final = 60.0
 """A session without a tab is closed after this time [s]."""
@@ -77,7 +76,6 @@ class Session:
             raise
         self._viewers: dict[int, Viewer] = {}
         self._works: int | None = None
-        self._asked: tuple[Reproduction, Conditions] | None = None
         self._logged = ""
         if said:
             self._desk.say(said)
@@ -86,7 +84,7 @@ class Session:
         self._known: dict[int, Known] = {}
         self._time = self._touched = self.clock()
         self._actor = Actor(tick=self._tick, draw=self._draw, report=self._report, name=f"session-{code}")
-        self._plans = Latest(workshop.workers, self._actor)
+        self._plans = Plans(self._desk, workshop.workers, self._actor, workshop.make_arm)
         self._shelving = Shelving(code, workshop.library, workshop.workers, self._actor)
         jobs = (workshop.workers, self._actor)
         self._keeper = Keeper(
@@ -263,7 +261,7 @@ class Session:
             self._keeper.follow(state)
             leading = self._desk.leading
             self._inquirer.ask(leading.inquiry, lambda of, to: leading.answered(of, to, self.clock()))
-            self._plan(state)
+            self._plans.follow(state)
             self._shaping.follow(state)
             self._examining.follow(state)
 
@@ -281,32 +279,6 @@ class Session:
             shelf=self._shelving.shelf,
             tried=self._tried,
         )
-
-    def _plan(self, state: State) -> None:
-        """Have a run checked that was not yet, one after the other; the one that is played comes first."""
-        model, stage = state.model, self._desk.stage
-        waiting = () if state.dragging is not None else stage.unplanned(model)
-        if not waiting:
-            return
-        run, conditions, near = waiting[0], stage.playing_conditions, stage.begins_near()
-        asked = (model.runs[run].reproduction, conditions)
-        if self._asked == asked:
-            return
-        self._asked = asked
-
-        def job() -> Plan:
-            arm = self.workshop.make_arm()
-            try:
-                return plan_run(arm, model, run, conditions, near)
-            finally:
-                arm.close()
-
-        self._plans.submit(job, lambda plan: self._planned(plan, asked))
-
-    def _planned(self, plan: Plan, asked: tuple[Reproduction, Conditions]) -> None:
-        if self._asked == asked:  # a job that failed stays asked for: it would fail again
-            self._asked = None
-        self._desk.accept_plan(plan)
 
     def _report(self, error: Exception) -> None:
         if isinstance(error, GcError):
