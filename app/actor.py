@@ -108,18 +108,8 @@ class Latest:
 
         A job that still waits when a newer one is submitted is forgotten.
         """
-
-        def whole() -> None:
-            try:
-                result = job()
-            except Exception as error:
-                failure = error  # the name is gone when the action runs
-                self._actor.post(lambda: _raise(failure))
-            else:
-                self._actor.post(lambda: done(result))
-
         with self._lock:
-            self._waiting = whole
+            self._waiting = _whole(self._actor, job, done)
             if self._busy:
                 return
             self._busy = True
@@ -133,6 +123,24 @@ class Latest:
                     self._busy = False
                     return
             job()
+
+
+def run(executor: Executor, actor: Actor, job: Callable[[], _T], done: Callable[[_T], None]) -> None:
+    """Run a slow job in a worker, then ``done`` with its result in the actor; none is forgotten."""
+    executor.submit(_whole(actor, job, done))
+
+
+def _whole(actor: Actor, job: Callable[[], _T], done: Callable[[_T], None]) -> Action:
+    def whole() -> None:
+        try:
+            result = job()
+        except Exception as error:
+            failure = error  # the name is gone when the action runs
+            actor.post(lambda: _raise(failure))
+        else:
+            actor.post(lambda: done(result))
+
+    return whole
 
 
 def _raise(error: Exception) -> None:

@@ -183,25 +183,21 @@ class Seat:
 
         def open_it(desk: Desk, now: float) -> Job | None:
             desk.let_go(now)
-            job = self._put_away(desk.store.history)
+            history = desk.store.history
             desk.open(opened, now)
-            return job
+            return self._put_away(history, desk)
 
         self._session.shelve(self._client_id, open_it)
 
-    def _put_away(self, history: History) -> Job | None:
+    def _put_away(self, history: History, desk: Desk) -> Job | None:
         """Save one's own work under a code of its own, and say where it is."""
         document = history.present.document
         if document.built_in or not document.demonstrations:
             return None
         code = self._kept[1] if history is self._kept[0] else fresh_code()
         self._kept = history, code
-
-        def keep(shelving: Shelving) -> str:
-            shelving.put_away(code, history)
-            return f"{document.title} is kept at /s/{code} and in My skills. Undo brings it back here."
-
-        return keep
+        desk.say(f"{document.title} is kept at /s/{code} and in My skills. Undo brings it back here.")
+        return lambda shelving: shelving.put_away(code, history)
 
     def go_back(self, stamp: int) -> None:
         """See `Actions.go_back`."""

@@ -18,7 +18,7 @@ from typing import Final, TypeVar
 import viser
 
 from app import viewers
-from app.actor import TICK, Actor, Latest
+from app.actor import TICK, Actor, Latest, run
 from app.arm.protocol import Arm
 from app.comparing import Comparing
 from app.desk import Desk
@@ -91,7 +91,6 @@ class Session:
             code, self._desk, workshop.library, jobs, clock=self.clock, on_saved=self._shelving.look_up
         )
         self._files = Latest(workshop.workers, self._actor)
-        self._copies = Latest(workshop.workers, self._actor)
         self._shaping = Shaping(workshop.workers, self._actor)
         self.exporting = Exporting(workshop.workers, self._actor, workshop.make_arm)
         self._examining = Examining(workshop.workers, self._actor, workshop.make_arm)
@@ -169,7 +168,7 @@ class Session:
 
     def _copy(self, made: Callable[[str], None]) -> None:
         document = self._desk.store.document
-        self._copies.submit(lambda: self._shelving.copy(document), made)
+        run(self.workshop.workers, self._actor, lambda: self._shelving.copy(document), made)
 
     def _show(self, viewer: Viewer) -> None:
         self._viewers[viewer.client.client_id] = viewer

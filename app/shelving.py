@@ -11,7 +11,7 @@ from concurrent.futures import Executor
 from dataclasses import replace
 from typing import Final, TypeAlias
 
-from app.actor import Actor, Latest
+from app.actor import Actor, Latest, run
 from app.desk import Desk
 from app.document import Document
 from app.drawing import drawing_of
@@ -40,7 +40,8 @@ class Shelving:
     def __init__(self, code: str, library: Library, executor: Executor, actor: Actor) -> None:
         self._code = code
         self.library: Final = library
-        self._listing, self._doing = Latest(executor, actor), Latest(executor, actor)
+        self._jobs = executor, actor
+        self._listing = Latest(executor, actor)
         self._drawn: dict[str, tuple[Summary, str]] = {}
         self._made: frozenset[str] = frozenset()
         self._known: Known = frozenset()
@@ -58,15 +59,16 @@ class Shelving:
         self._listing.submit(lambda: self._list(among), self._accept)
 
     def do(self, job: Job | None, say: Callable[[str], None]) -> None:
-        """Let a worker do something, say what came of it, and list anew."""
+        """Let a worker do something, say what came of it if it is worth a word, and list anew."""
         if job is None:
             return
 
         def done(said: str) -> None:
-            say(said)
+            if said:
+                say(said)
             self.look_up()
 
-        self._doing.submit(lambda: job(self), done)
+        run(*self._jobs, lambda: job(self), done)
 
     def copy(self, document: Document) -> str:
         """Save a copy under a code of its own, in a worker; returns the code."""
@@ -76,10 +78,11 @@ class Shelving:
         self._made |= {code}
         return code
 
-    def put_away(self, code: str, history: History) -> None:
-        """Keep one's own work under a code of its own, in a worker."""
+    def put_away(self, code: str, history: History) -> str:
+        """Keep one's own work under a code of its own, in a worker; nothing more is to be said."""
         self.library.keep(code, history)
         self._made |= {code}
+        return ""
 
     def _list(self, among: Known) -> Shelf:
         found = self.library.recent(MOST_CARDS, among)
