@@ -201,15 +201,7 @@ class Seat:
 
     def go_back(self, stamp: int) -> None:
         """See `Actions.go_back`."""
-
-        def go(desk: Desk, now: float) -> None:
-            version = version_of(desk.store.history, stamp)
-            if version is not None:
-                desk.edit(
-                    lambda _: version.document, f"go back to {version.name or 'the beginning'}", now=now
-                )
-
-        self._post(go)
+        self._post(lambda desk, now: go_back(desk, stamp, now))
 
     def copy_version(self, stamp: int) -> None:
         """See `Actions.copy_version`."""
@@ -245,6 +237,13 @@ class Seat:
 
     def _shelve(self, job: Job) -> None:
         self._session.shelve(self._client_id, lambda _desk, _now: job)
+
+
+def go_back(desk: Desk, stamp: int, now: float) -> None:
+    """Work on another version of the skill, as a step that can be undone."""
+    version = version_of(desk.store.history, stamp)
+    if version is not None:
+        desk.edit(lambda _: version.document, f"go back to {version.name or 'the beginning'}", now=now)
 
 
 def _said(done: bool, words: str) -> str:

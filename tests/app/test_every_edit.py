@@ -9,6 +9,7 @@ from __future__ import annotations
 import inspect
 import itertools
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,7 @@ from app.desk import Desk
 from app.document import Document
 from app.files import inspect_bytes
 from app.library import Library, encode_document
+from app.seat import go_back
 from gc_core import same_content
 from tests.app.makers import Mouse, desk_of, furnished
 from tests.app.site import FIRST_SCREEN, library_in, pull, serving
@@ -95,6 +97,14 @@ def accepted(mouse: Mouse) -> None:
     mouse.desk.accept_file("m", "as recorded", mouse.now)
 
 
+def gone_back(mouse: Mouse) -> None:
+    desk = mouse.desk
+    desk.edit(partial(edits.set_stations, stations=77), "change the slices", now=mouse.now)
+    stamp = desk.store.history.present.stamp
+    desk.undo(mouse.now)
+    go_back(desk, stamp, mouse.now)
+
+
 def edited(change: Callable[[Document], Document]) -> Deed:
     return lambda mouse: mouse.desk.edit(change, "edit", now=mouse.now)
 
@@ -106,6 +116,7 @@ DEEDS: dict[str, dict[str, Deed]] = {
     "record": {"by buttons": recorded},
     "move_line": {"by numbers": moved_line},
     "accept_file": {"a table": accepted},
+    "go_back": {"a version that was undone": gone_back},
     "open_skill": {"an empty one": lambda mouse: mouse.desk.open(skills.empty_skill(), mouse.now)},
 }
 """Of each action that edits, ways to do it."""
