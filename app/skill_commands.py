@@ -28,6 +28,7 @@ from app.resources import static_folder
 from gc_core import GcError
 
 MOST_LISTED: Final = 10_000
+BACK: Final = "For 30 days it can be brought back in the app, in My skills."
 
 cli: Final = SubcommandApp()
 
@@ -140,7 +141,7 @@ def show(name: tyro.conf.Positional[str], *, library: str = "", json: bool = Fal
 
 @cli.command
 def delete(name: tyro.conf.Positional[str], *, library: str = "", json: bool = False) -> None:
-    """Delete a saved skill.
+    """Delete a saved skill; for 30 days the app can bring it back.
 
     Args:
         name: Its title or code.
@@ -153,7 +154,9 @@ def delete(name: tyro.conf.Positional[str], *, library: str = "", json: bool = F
             raise SkillNameError(f"{entry.title} is built in and stays. Name a skill that was saved.")
         shelf.delete(entry.code)
     _say(
-        {"deleted": entry.code, "title": entry.title}, f"{entry.title} ({entry.code}) is deleted.", json=json
+        {"deleted": entry.code, "title": entry.title},
+        f"{entry.title} ({entry.code}) is deleted. {BACK}",
+        json=json,
     )
 
 
