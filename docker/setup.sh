@@ -34,6 +34,8 @@ missing_packages() {
         # The drivers of the browser and of pyright are Node programs, and Node is linked to this one.
         compgen -G '/usr/lib/*/libatomic.so.1' >/dev/null || compgen -G '/usr/lib*/libatomic.so.1' >/dev/null \
             || echo libatomic1
+        # Saved skills are tested in both kinds of database.
+        compgen -G '/usr/lib/postgresql/*/bin/initdb' >/dev/null || command -v initdb >/dev/null || echo postgresql
         ls /usr/share/fonts/truetype/dejavu/*.ttf >/dev/null 2>&1 || echo fonts-dejavu-core
     fi
     # Some packages are compiled where their authors offer no wheel for the machine.

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.pages import code_in_path, fresh_code, same_origin, valid_code
+from app.pages import COOKIE, code_in_path, fresh_code, is_local, opened_codes, same_origin, valid_code
 from tests.web.site import CODE, Site
 
 
@@ -102,6 +102,44 @@ def test_what_is_not_there_is_not_found_whatever_the_spelling(site: Site, path: 
 
     assert response.status == 404
     assert b"secret" not in body
+
+
+def test_a_code_that_cannot_be_one_is_a_page_that_says_what_to_do(site: Site) -> None:
+    response, body = site.get("/s/short")
+
+    assert response.status == 404
+    assert b"There is no skill at this address" in body
+    assert b'<a href="../">' in body
+
+
+def test_a_browser_remembers_the_codes_that_it_opened_the_last_first(site: Site) -> None:
+    first = site.get(f"/s/{CODE}")[0].getheader("Set-Cookie")
+    second = site.get("/s/another-code-1", Cookie=f"x=1; {first.partition(';')[0]}")[0].getheader(
+        "Set-Cookie"
+    )
+
+    assert opened_codes(second) == ("another-code-1", CODE)
+    assert "HttpOnly; SameSite=Lax" in second
+    assert site.get("/static/hello.txt")[0].getheader("Set-Cookie") is None
+
+
+@pytest.mark.parametrize("cookies", ["", "x=1", f"{COOKIE}=", f"{COOKIE}=<script>.short.{'a' * 65}", "=;;="])
+def test_a_cookie_that_was_tampered_with_names_no_codes(cookies: str) -> None:
+    assert opened_codes(cookies) == ()
+
+
+@pytest.mark.parametrize(
+    ("host", "local"),
+    [
+        ("localhost:8080", True),
+        ("127.0.0.1", True),
+        ("[::1]:80", True),
+        ("lab.example:8080", False),
+        ("", False),
+    ],
+)
+def test_only_who_sits_at_the_server_sees_all_skills(host: str, local: bool) -> None:
+    assert is_local(host) is local
 
 
 def test_another_method_than_get_loses_its_connection_and_nothing_else(site: Site) -> None:
