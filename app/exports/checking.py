@@ -14,9 +14,11 @@ from typing import Any, Final, Literal, Union, cast, get_args, get_origin, get_t
 import numpy as np
 from numpy.typing import NDArray
 
-from app.document import Document, Place, Rule
+from app import measures
+from app.document import Document, Place, Rule, Shape
 from app.edits import LARGEST_COORDINATE, MOST_LANDMARKS, MOST_THINGS, point, set_smoothing, set_stations
 from app.edits.checks import LONGEST_IN_SCENE, LONGEST_NAME
+from app.edits.things import HEAVIEST, LARGEST
 from app.files import MOST_DEMONSTRATIONS, MOST_SAMPLES
 from gc_core import GcError
 
@@ -61,7 +63,7 @@ def checked(document: Document) -> Document:
     for start in document.starts:
         point(start)
     for thing in document.things:
-        point(thing.position)
+        _check_thing(thing)
     for shown in document.demonstrations:
         if len(shown.demonstration.times) > MOST_SAMPLES:
             raise ForeignSkillError(f"A demonstration of the file has more than {MOST_SAMPLES} samples")
@@ -95,6 +97,15 @@ def _check_place(place: Place) -> None:
             point(position)
     if place.turn is not None and (place.turn.shape != (3,) or np.abs(place.turn).max() > 100.0):
         raise ForeignSkillError(f"The turn of {place.name} is not three angles")
+
+
+def _check_thing(thing: Shape) -> None:
+    point(thing.position)
+    turned = 0.1 <= float(np.linalg.norm(np.clip(thing.wxyz, -100.0, 100.0))) <= 10.0
+    if not turned or max(measures.measures(thing)) > LARGEST or thing.mass > HEAVIEST:
+        raise ForeignSkillError(
+            f"No thing can be turned, as large or as heavy as the {thing.name} of the file"
+        )
 
 
 def _check_rule(rule: Rule) -> None:

@@ -181,6 +181,8 @@ FOREIGN: dict[str, bytes] = {
         **{"0" * 40 + ".npy": npy_of(np.zeros((60_000, 3)))},
     ),
     "a box of negative size": rewritten(put([-1.0, 1.0, 1.0], "things", 0, "Box", "size")),
+    "a box as large as the world": rewritten(put([1e300, 1.0, 1.0], "things", 0, "Box", "size")),
+    "a box that is turned by nothing": rewritten(put([1e-300, 0.0, 0.0, 0.0], "things", 0, "Box", "wxyz")),
     "a thing at infinity": rewritten(put([1e300, 0.0, 0.0], "things", 0, "Box", "position")),
     "a rule that does not fit together": rewritten(put({"array": "0" * 40}, *RULE, "points"), **WITH_NAN),
     "a thousand landmarks": rewritten(lambda saved: repeat(saved, "landmarks", 1000)),
