@@ -185,19 +185,19 @@ class Seat:
             desk.let_go(now)
             history = desk.store.history
             desk.open(opened, now)
-            return self._put_away(history, desk)
+            return self._put_away(history)
 
         self._session.shelve(self._client_id, open_it)
 
-    def _put_away(self, history: History, desk: Desk) -> Job | None:
-        """Save one's own work under a code of its own, and say where it is."""
+    def _put_away(self, history: History) -> Job | None:
+        """Save one's own work under a code of its own, and say where it is once it is there."""
         document = history.present.document
         if document.built_in or not document.demonstrations:
             return None
         code = self._kept[1] if history is self._kept[0] else fresh_code()
         self._kept = history, code
-        desk.say(f"{document.title} is kept at /s/{code} and in My skills. Undo brings it back here.")
-        return lambda shelving: shelving.put_away(code, history)
+        where = f"{document.title} is kept at /s/{code} and in My skills. Undo brings it back here."
+        return lambda shelving: shelving.put_away(code, history, where)
 
     def go_back(self, stamp: int) -> None:
         """See `Actions.go_back`."""

@@ -78,11 +78,11 @@ class Shelving:
         self._made |= {code}
         return code
 
-    def put_away(self, code: str, history: History) -> str:
-        """Keep one's own work under a code of its own, in a worker; nothing more is to be said."""
+    def put_away(self, code: str, history: History, where: str) -> str:
+        """Keep one's own work under a code of its own, in a worker; returns what to say then."""
         self.library.keep(code, history)
         self._made |= {code}
-        return ""
+        return where
 
     def _list(self, among: Known) -> Shelf:
         found = self.library.recent(MOST_CARDS, among)
