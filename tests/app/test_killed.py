@@ -67,13 +67,17 @@ def missing(saved: Sequence[Document], acknowledged: list[np.ndarray]) -> list[n
     return [shown for shown in acknowledged if not held(shown)]
 
 
-def kill_and_look(folder: Path, dice: random.Random, acknowledged: list[np.ndarray]) -> None:
-    """One life of a server; ``acknowledged`` grows by what it said to have saved."""
+def kill_and_look(folder: Path, dice: random.Random, known: int, acknowledged: list[np.ndarray]) -> int:
+    """One life of a server, which begins with so many steps; returns how many it leaves.
+
+    ``acknowledged`` grows by what it said to have saved.
+    """
     server = Killable(library_in(folder))
     end = threading.Timer(dice.uniform(0.0, LONGEST), server.kill)
     try:
         with FakeClient(f"ws://127.0.0.1:{server.port}/s/{CODE}") as client:
             client.wait_nodes(*FIRST_SCREEN)
+            client.wait(lambda c: steps(c) == known and "Saved" in c.text())
             end.start()
             acknowledged += work(client, dice)
     finally:
@@ -85,6 +89,7 @@ def kill_and_look(folder: Path, dice: random.Random, acknowledged: list[np.ndarr
     saved = [] if kept is None else [version.document for version in kept.history.versions]
     library.close()
     assert missing(saved, acknowledged) == []
+    return max(len(saved) - 1, 0)
 
 
 @pytest.mark.parametrize(
@@ -96,7 +101,8 @@ def test_all_that_was_said_to_be_saved_is_there_after_each_kill(
 ) -> None:
     dice = random.Random(lives)
     acknowledged: list[np.ndarray] = []
+    known = 0
     for _ in range(lives):
-        kill_and_look(tmp_path, dice, acknowledged)
+        known = kill_and_look(tmp_path, dice, known, acknowledged)
 
     assert len(acknowledged) >= enough
