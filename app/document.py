@@ -5,6 +5,7 @@ looks at (tabs, what is visible, how wide a pull is) is the `View`, which is nei
 saved nor undone. Positions are in the robot's base frame [m].
 """
 
+import unicodedata
 from dataclasses import dataclass
 from typing import Final, Literal, TypeAlias
 
@@ -160,3 +161,8 @@ class View:
     """From so many starts in the first slice; 0: from those of Try."""
     show_compared: bool = True
     """Their runs are drawn in the scene."""
+
+
+def plain(text: str) -> str:
+    """Leave out what can neither be shown nor saved: control characters but line ends, halves of letters."""
+    return "".join(c for c in text if c == "\n" or unicodedata.category(c) not in ("Cc", "Cs"))

@@ -5,7 +5,7 @@ from typing import Final, TypeVar
 
 import numpy as np
 
-from app.document import FloatArray
+from app.document import FloatArray, plain
 from gc_core import GcError
 
 LARGEST_COORDINATE: Final = 10.0
@@ -48,6 +48,11 @@ def point(values: Sequence[float] | FloatArray) -> FloatArray:
     return p
 
 
+def name_from(name: str) -> str:
+    """Make a name of what a person typed or a file says; empty where there is nothing to be seen."""
+    return plain(name).strip()[:LONGEST_NAME]
+
+
 def renamed(noun: str, name: str, former: str, taken: Sequence[str]) -> str:
     """Check a new name of a thing in the scene; the former one where nothing else was typed.
 
@@ -56,7 +61,7 @@ def renamed(noun: str, name: str, former: str, taken: Sequence[str]) -> str:
     EditError
         If it is taken, or could not be a name in the scene.
     """
-    name = " ".join(name.split())[:LONGEST_IN_SCENE]
+    name = plain(" ".join(name.split()))[:LONGEST_IN_SCENE]
     if not name or name == former:
         return former
     if "/" in name:

@@ -16,7 +16,7 @@ from app.document import (
     SectionKind,
     Shown,
 )
-from app.edits.checks import LONGEST_NAME, EditError, at, next_number, one_of, point, without
+from app.edits.checks import EditError, at, name_from, next_number, one_of, point, without
 from gc_core import Constraint, Demonstration
 
 
@@ -33,12 +33,12 @@ def edit(document: Document, f: Callable[[Document], Document]) -> Document:
 def skill_of(title: str, demonstrations: Sequence[Demonstration]) -> Document:
     """Make a skill of demonstrations that come from elsewhere."""
     about = f"{len(demonstrations)} demonstrations, and the tube that was learned from them."
-    return add_demonstrations(Document(title.strip()[:LONGEST_NAME] or "My skill", about), demonstrations)
+    return add_demonstrations(Document(name_from(title) or "My skill", about), demonstrations)
 
 
 def rename_skill(document: Document, title: str) -> Document:
     """Change the skill's name."""
-    title = title.strip()[:LONGEST_NAME]
+    title = name_from(title)
     if title == document.title:
         return document
     if not title:
@@ -91,7 +91,7 @@ def replace_demonstration(document: Document, index: int, demonstration: Demonst
 def rename_demonstration(document: Document, index: int, name: str) -> Document:
     """Change a demonstration's name."""
     shown = at(document.demonstrations, index, "demonstration")
-    name = name.strip()[:LONGEST_NAME]
+    name = name_from(name)
     if not name or name == shown.demonstration.name:
         return document
     return _with_shown(document, index, replace(shown, demonstration=replace(shown.demonstration, name=name)))
@@ -183,7 +183,7 @@ def enable_rule(document: Document, index: int, enabled: bool) -> Document:
 def rename_rule(document: Document, index: int, name: str) -> Document:
     """Change a rule's name."""
     rule = at(document.rules, index, "rule")
-    name = name.strip()[:LONGEST_NAME]
+    name = name_from(name)
     if not name or name == rule.name:
         return document
     rules = (*document.rules[:index], replace(rule, name=name), *document.rules[index + 1 :])

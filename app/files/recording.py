@@ -12,7 +12,7 @@ from typing import Final, Literal, TypeAlias
 
 import numpy as np
 
-from app.document import FloatArray
+from app.document import FloatArray, plain
 from app.files.errors import BadValueError, FileError, TooLargeError, UnreadableError
 from gc_core import Demonstration, GcError
 
@@ -171,7 +171,7 @@ def _demonstration(
             positions=recording.positions[keep],
             orientations=orientations,
             gripper=None if recording.gripper is None else recording.gripper[keep],
-            name=recording.name,
+            name=plain(recording.name),
         )
     except GcError as error:
         raise FileError(name, f"{name}, {where}: {error}") from error

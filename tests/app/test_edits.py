@@ -353,3 +353,19 @@ def test_a_number_is_given_to_one_rule_only() -> None:
 
     names = [kept.name for kept in document.rules]
     assert len(set(names)) == len(names)
+
+
+@pytest.mark.parametrize(
+    "rename",
+    [
+        edits.rename_skill,
+        lambda d, name: edits.rename_demonstration(d, 0, name),
+        lambda d, name: edits.rename_rule(d, 0, name),
+        lambda d, name: edits.rename_landmark(d, 2, name),
+    ],
+)
+def test_a_name_keeps_no_sign_that_could_not_be_saved(rename: Callable[[Document, str], Document]) -> None:
+    renamed = rename(furnished(), " a\0\ud800 \x1bb\N{ZERO WIDTH JOINER}é")
+
+    found = [renamed.title, renamed.rules[0].name, renamed.landmarks[2].name]
+    assert "a b\N{ZERO WIDTH JOINER}é" in [*found, renamed.demonstrations[0].demonstration.name]

@@ -60,6 +60,14 @@ def test_a_skill_file_is_also_read_as_its_demonstrations() -> None:
     assert same_content(found, document.demonstrations[0].demonstration)
 
 
+def test_a_skill_whose_names_have_unusual_letters_comes_back() -> None:
+    names = {"title": "Über 👩\u200d🔬\u3000机器人", "about": "One line.\nAnother."}
+    places = tuple(replace(p, name=p.name.replace("cup", "👩\u200d🔬")) for p in furnished().landmarks)
+    document = replace(furnished(), landmarks=places, **names)
+
+    assert same_content(unpack("a.gcteach", pack(document)), document)
+
+
 FIXTURE = Path(__file__).parent / "fixtures" / "everything.gcteach"
 """`pack(furnished())` of tests.app.makers, as gc-teach 0.1 wrote it; later versions must read it."""
 
@@ -163,6 +171,8 @@ FOREIGN: dict[str, bytes] = {
     "a title of ten thousand letters": rewritten(put("x" * 10_000, "title")),
     "an unknown section": rewritten(put("heptagon", "settings", "Settings", "section")),
     "stations that are words": rewritten(put("many", "settings", "Settings", "stations")),
+    "half a letter": rewritten(put("a\ud800b", "title")),
+    "a letter that ends a text": rewritten(put("a\0b", *SHOWN, "name")),
     "a million stations": rewritten(put(10**6, "settings", "Settings", "stations")),
     "smoothing that is not finite": rewritten(put(float("nan"), "smoothing")),
     "NaN in positions": rewritten(put(NAN, *SHOWN, "positions"), **WITH_NAN),
