@@ -252,12 +252,16 @@ class Session:
         return moving or self._keeper.saving != "saved"
 
     def _draw(self) -> None:
-        state = self._state()
+        try:
+            self._show_state(self._state())
+        finally:  # what cannot be learned or drawn is saved all the same
+            self._keeper.follow(self._tried)
+
+    def _show_state(self, state: State) -> None:
         try:
             for viewer in tuple(self._viewers.values()):
                 viewer.draw(state)
-        finally:  # what cannot be drawn is saved all the same
-            self._keeper.follow(state)
+        finally:
             leading = self._desk.leading
             self._inquirer.ask(leading.inquiry, lambda of, to: leading.answered(of, to, self.clock()))
             self._plans.follow(state)

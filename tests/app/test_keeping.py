@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import itertools
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor, Future
 from pathlib import Path
 
 import pytest
 
-from app.edits import delete_demonstration
+from app.actor import Actor
+from app.arm import PlanarArm
+from app.desk import Desk
+from app.edits import delete_demonstration, rename_skill
 from app.history import begin
+from app.keeping import Keeper
 from app.library import Library, LibraryError
 from app.server import Server
 from tests.app.makers import taught
@@ -35,11 +41,16 @@ def move(client: FakeClient, node: str, by: tuple[float, float, float] = BY) -> 
     """Pull at something and wait until that is a step which is saved."""
     before = versions(client)
     pull(client, node, by)
-    client.wait(lambda c: versions(c) > before and "Saved" in c.text())
+    client.wait(lambda c: versions(c) > before and ">Saved<" in c.text())
 
 
 def versions(client: FakeClient) -> int:
     return sum(bool(option) for option in client.element("Version", "Dropdown").props["options"])
+
+
+def ticks(client: FakeClient) -> int:
+    """Things of the lesson that were tried."""
+    return client.text().count("&#10003;")
 
 
 def press_option(client: FakeClient, option: str) -> None:
@@ -55,12 +66,10 @@ def test_undo_survives_the_end_of_the_server_and_so_does_the_lesson(library: str
         move(client, "/landmarks/goal")
         last = picture(client)
         press(client, "Undo: move goal")
-        client.wait(lambda c: picture(c) == between and "Saved" in c.text())
-        ticks = client.text().count("&#10003;")
+        client.wait(lambda c: picture(c) == between and ">Saved<" in c.text() and ticks(c) == 3)
 
     with serving(library) as server, tab(server, CODE) as client:
-        client.wait(lambda c: picture(c) == between)
-        assert client.text().count("&#10003;") == ticks == 3
+        client.wait(lambda c: picture(c) == between and ticks(c) == 3)
         press(client, "Redo: move goal")
         client.wait(lambda c: picture(c) == last)
         press(client, "Undo: move goal")
@@ -143,11 +152,12 @@ def test_work_that_is_not_saved_is_said_not_to_be_until_it_is(
     server: Server, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     full, keep = threading.Event(), Library.keep
+    problems = itertools.cycle([LibraryError("The disk is full."), ValueError("a fault of ours")])
     full.set()
 
     def failing(self: Library, *args: object, **more: object) -> None:
         if full.is_set():
-            raise LibraryError("The disk is full.")
+            raise next(problems)
         keep(self, *args, **more)
 
     monkeypatch.setattr("app.keeping.AGAIN", 0.2)
@@ -155,5 +165,37 @@ def test_work_that_is_not_saved_is_said_not_to_be_until_it_is(
     with tab(server, CODE) as client:
         pull(client, "/start/0", BY)
         client.wait(lambda c: "Not saved yet" in c.text() and "The disk is full." in c.text())
+        client.wait(lambda c: "Not saved yet" in c.text() and "Something went wrong in" in c.text())
         full.clear()
         client.wait(lambda c: "Not saved yet" not in c.text() and ">Saved<" in c.text())
+
+
+class Waiting(Executor):
+    """A worker that has not come to it yet."""
+
+    def __init__(self) -> None:
+        self.jobs: list[Callable[[], object]] = []
+
+    def submit(self, fn: Callable[..., object], /, *args: object, **more: object) -> Future[None]:
+        self.jobs.append(lambda: fn(*args, **more))
+        return Future()
+
+
+def test_a_save_that_waited_until_its_session_was_over_undoes_nothing(library: str) -> None:
+    shelf, desk, worker = Library(library), Desk(taught(), PlanarArm()), Waiting()
+    actor = Actor(tick=lambda: False, draw=lambda: None, report=lambda _: None, name="over")
+    keeper = Keeper(CODE, desk, shelf, (worker, actor), clock=lambda: 0.0, on_saved=lambda: None)
+    desk.edit(lambda d: rename_skill(d, "First"), "rename", now=0.0)
+    keeper.follow(frozenset())
+    keeper.finish(frozenset())
+    history = desk.store.history
+    shelf.keep(CODE, history.after(rename_skill(history.present.document, "Second"), "rename", 2e9))
+
+    for job in worker.jobs:
+        job()
+
+    saved = shelf.load(CODE)
+    assert saved is not None
+    assert saved.title == "Second"
+    actor.close()
+    shelf.close()
