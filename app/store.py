@@ -299,13 +299,20 @@ class Store:
         return self.history.redo_name
 
     def undo(self) -> str | None:
-        """Take the last edit back; returns its name, None when there is none."""
+        """Take the last edit back; returns its name, None when there is none.
+
+        A version that cannot be read raises a `GcError`, and the present one stays.
+        """
         name = self.history.undo_name
-        self.history, self._merging = self.history.back(), None
+        self._go(self.history.back())
         return name
 
     def redo(self) -> str | None:
         """Do the last undone edit again; returns its name, None when there is none."""
         name = self.history.redo_name
-        self.history, self._merging = self.history.forth(), None
+        self._go(self.history.forth())
         return name
+
+    def _go(self, history: History) -> None:
+        _ = history.present.document  # read now: what cannot be read must not be worked on
+        self.history, self._merging = history, None

@@ -15,7 +15,7 @@ NO: Final = "No"
 
 
 class Menu(Generic[T]):
-    """Offers things by name; equal names are numbered. The first is chosen until a person chooses."""
+    """Offers things by name; equal names are numbered. What was first at first is chosen."""
 
     def __init__(self, gui: viser.GuiApi, label: str, hint: str) -> None:
         self._named: dict[str, T] = {}
@@ -34,15 +34,25 @@ class Menu(Generic[T]):
 
     def offer(self, things: Sequence[tuple[str, T]]) -> None:
         """Offer these, the likeliest first; what was chosen stays chosen if it is among them."""
-        named: dict[str, T] = {}
-        for name, thing in things:
-            number, label = 2, name
-            while label in named:
-                number, label = number + 1, f"{name} ({number})"
-            named[label] = thing
+        labels = distinct([name for name, _ in things])
+        named = {label: thing for label, (_, thing) in zip(labels, things, strict=True)}
         if tuple(named) != tuple(self._named):
             assign(self._widget, options=tuple(named) or ("",), visible=bool(named))
         self._named = named
+
+
+def distinct(names: Sequence[str]) -> list[str]:
+    """Number equal names from the last one on: what comes before them later renames none of them."""
+    used: dict[str, int] = {}
+    labels: list[str] = []
+    for name in reversed(names):
+        label = name
+        while label in used:
+            used[name] += 1
+            label = f"{name} ({used[name]})"
+        used[label] = 1
+        labels.append(label)
+    return labels[::-1]
 
 
 class Question:

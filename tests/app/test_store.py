@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -10,8 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app import edits
-from app.edits import EditError
-from app.history import DEEPEST
+from app.document import Document
+from app.edits import EditError, rename_skill
+from app.history import DEEPEST, Version, begin
+from app.library import UnreadableSkillError
 from app.store import MERGE_WITHIN, Store
 from tests.app.makers import taught
 
@@ -149,3 +152,16 @@ def test_the_history_has_an_end() -> None:
     while store.undo() is not None:
         undone += 1
     assert undone == DEEPEST
+
+
+def test_a_version_that_cannot_be_read_is_not_gone_back_to() -> None:
+    def damaged() -> Document:
+        raise UnreadableSkillError("the numbers are damaged")
+
+    whole = begin(taught(), 1.0).after(rename_skill(taught(), "Later"), "rename", 2.0)
+    store = Store(replace(whole, versions=(Version(1, "", damaged), whole.present)))
+
+    with pytest.raises(UnreadableSkillError):
+        store.undo()
+
+    assert store.document.title == "Later"

@@ -7,9 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from app import edits
 from app.document import View
+from app.panels.menu import distinct
 from app.shapes import shapes_of
 from app.store import Hand, Offer, Playback
 from gc_core import Constraint
@@ -499,3 +502,13 @@ def test_an_unchanged_draw_is_cheap(bench: Bench, benchmark) -> None:
     state = bench.draw(state_of(taught()))
 
     benchmark(bench.panels.draw, state)
+
+
+@given(st.lists(st.sampled_from(["move goal", "move goal (2)", "move goal (2) (2)", "add start"])))
+def test_what_a_menu_offers_is_told_apart_and_keeps_its_name_when_something_newer_comes(
+    names: list[str],
+) -> None:
+    labels = distinct(names)
+
+    assert len(set(labels)) == len(names)
+    assert distinct(["move goal", *names])[1:] == labels
