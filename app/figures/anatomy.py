@@ -88,5 +88,6 @@ def _frenet(curve: FloatArray) -> FloatArray:
 def _twist(cylinder: GeneralizedCylinder, normals: FloatArray) -> float:
     """How far normals (N, 3) turn in all against those that are carried along [degrees]."""
     inside = np.einsum("nij,ni->nj", cylinder.frames[:, :, 1:], normals)
-    inside /= np.linalg.norm(inside, axis=1, keepdims=True)
+    length = np.linalg.norm(inside, axis=1)
+    inside = inside[length > 0.5] / length[length > 0.5, None]  # where it is straight there is no normal
     return float(np.rad2deg(angles_between(inside[:-1], inside[1:]).sum()))

@@ -79,7 +79,8 @@ def draw_obeying(subjects: tuple[Subject, ...]) -> Any:
 
 def pressed_run(subject: Subject) -> Pressed:
     """Let a teacher press the upper one of two runs down in its middle."""
-    runs = [reproduce_whole(subject.cylinder, start) for start in subject.starts[:2]]
+    starts = subject.starts if len(subject.starts) > 1 else subject.above_and_below
+    runs = [reproduce_whole(subject.cylinder, start) for start in starts[:2]]
     upper, lower = sorted(runs, key=lambda run: -float(run.positions[:, 2].mean()))
     corrected = pulled(upper.positions, PRESS)
     lid = Constraint.from_correction(upper, corrected, name="Lid")

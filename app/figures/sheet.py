@@ -60,6 +60,7 @@ STYLE: Final[dict[str, Any]] = {
     "lines.solid_joinstyle": "round",
     "svg.hashsalt": "gc-teach",
     "text.color": INK,
+    "text.parse_math": False,  # titles are typed by people, and dollars are dollars
     "xtick.color": INK,
     "ytick.color": INK,
 }

@@ -54,8 +54,11 @@ class Subject:
     @property
     def starts(self) -> FloatArray:
         """(S, 3) where runs begin: the skill's own, or one on either side of the middle line [m]."""
-        if self.document.starts:
-            return np.array(self.document.starts)
+        return np.array(self.document.starts) if self.document.starts else self.above_and_below
+
+    @property
+    def above_and_below(self) -> FloatArray:
+        """(2, 3) starts on either side of the middle line [m]."""
         rim = self.cylinder.surface()[0]
         return around(self.cylinder, OFF_CENTRE, (int(rim[:, 2].argmax()), int(rim[:, 2].argmin())))
 

@@ -29,6 +29,7 @@ STYLE: Final = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.titlesize": 9.0,
+    "text.parse_math": False,  # names of files, in which dollars are dollars
 }
 
 
@@ -93,4 +94,4 @@ def _draw(
     if measure.log:
         frame.set_xscale("log")
     else:
-        frame.set_xlim(left=min(0.0, frame.get_xlim()[0]) if frame.get_xlim()[0] < 0.0 else 0.0)
+        frame.set_xlim(left=min(0.0, frame.get_xlim()[0]))

@@ -68,7 +68,12 @@ def _opened(choice: Choice, spec: Spec) -> Iterator[DataSet]:
         shown = load_skill(skills, choice.files).demonstrations
         yield data_set(choice.files, [each.demonstration for each in shown if not each.muted])
         return
-    files = _files(choice.files, spec.data)
+    try:
+        files = _files(choice.files, spec.data)
+    except (IndexError, ValueError) as error:  # pathlib's, of a pattern that is none
+        raise BadSpecError(
+            spec.file, f"{choice.files!r} is no pattern of files. Give one such as '*.csv' or '**/*.csv'."
+        ) from error
     if not files:
         raise BadSpecError(
             spec.file,

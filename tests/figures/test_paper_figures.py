@@ -20,6 +20,7 @@ from app.figures.constraint import pressed_run
 from app.figures.subject import Subject
 from app.resources import static_folder
 from app.skills import load_skill
+from gc_core import Demonstration
 
 
 @cache
@@ -124,6 +125,23 @@ def test_a_lower_run_that_the_rule_moves_is_not_called_untouched() -> None:
 
     assert "lower run, untouched" in labels
     assert "lower run, untouched" not in twice.axes[0].get_legend_handles_labels()[1]
+
+
+@pytest.mark.parametrize("count", [0, 1])
+def test_a_run_is_pressed_down_above_another_however_few_starts_there_are(count: int) -> None:
+    document = subjects_of("11")[0].document
+    pressed = pressed_run(Subject(replace(document, starts=document.starts[:count])))
+
+    assert pressed.upper.positions[0, 2] > pressed.lower.positions[0, 2]
+
+
+def test_frenet_frames_of_a_straight_motion_are_not_said_to_turn() -> None:
+    part = np.linspace(0.0, 1.0, 100)
+    straight = Demonstration(part, np.outer(part, [0.3, 0.0, 0.0]))
+    with sheet.styled():
+        figure = import_module("app.figures.anatomy").draw((Subject(skill_of("Straight", [straight])),))
+
+    assert "turns by 0°" in figure.axes[1].get_title()
 
 
 def test_a_figure_is_the_same_file_each_time() -> None:

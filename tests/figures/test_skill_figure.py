@@ -19,10 +19,10 @@ def model() -> Model:
     return learn(load_skill(static_folder() / "skills", "around_an_obstacle"))
 
 
-def drawn(model: Model, form: str) -> bytes:
+def drawn(model: Model, form: str, title: str = "Here") -> bytes:
     shown: list[FloatArray] = [each.positions for each in model.demonstrations]
     runs = [run.reproduction.positions for run in model.runs]
-    return skill_figure(model.cylinder, shown, runs, things=model.source.things, title="Here", form=form)
+    return skill_figure(model.cylinder, shown, runs, things=model.source.things, title=title, form=form)
 
 
 def test_a_skill_is_drawn_as_the_same_file_each_time(model: Model) -> None:
@@ -30,6 +30,10 @@ def test_a_skill_is_drawn_as_the_same_file_each_time(model: Model) -> None:
 
     assert ET.fromstring(first).tag.endswith("svg")
     assert drawn(model, "svg") == first
+
+
+def test_a_title_is_not_read_as_a_formula(model: Model) -> None:
+    assert rb"Both $\q$ cost 5$" in drawn(model, "svg", r"Both $\q$ cost 5$")
 
 
 def test_a_skill_is_drawn_as_a_picture(model: Model) -> None:

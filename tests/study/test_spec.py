@@ -56,6 +56,8 @@ def test_what_is_wrong_is_named_with_what_is_possible(wrong: str, said: str, tmp
         ('["reeching"]', "'reeching' is no built-in skill (around_an_obstacle, "),
         ('["*.mat"]', "Check the pattern, or say with --data"),
         ('["bent.csv", "./*.csv"]', "two data sets are called 'bent'"),
+        ('["**.csv"]', "'**.csv' is no pattern of files"),
+        ('["."]', "'.' is no pattern of files"),
     ],
 )
 def test_data_that_there_are_not_are_named(data_sets: str, said: str, tmp_path: Path) -> None:

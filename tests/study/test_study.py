@@ -236,7 +236,8 @@ def test_a_scheduler_that_is_not_there_is_a_sentence(monkeypatch: pytest.MonkeyP
 def test_the_command_says_one_json_value_and_writes_a_page_that_needs_no_network(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    changes = 'title = "No <net>"\nmethods = ["gc", "gmr-150"]\nmoves = 0\nleave_one_out = false'
+    changes = 'title = "No <net>"\nmethods = ["gc", "gmr-150"]\nmoves = 0\nleave_one_out = false\n'
+    changes += "data_sets = [{ name = '$<b>\\q$', files = 'bent.csv' }]"
     small(tmp_path, changes)
     main(["study", str(tmp_path / "small.toml"), "--out", str(tmp_path / "out"), "--workers", "1", "--json"])
 
@@ -244,6 +245,8 @@ def test_the_command_says_one_json_value_and_writes_a_page_that_needs_no_network
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     assert [said[key] for key in ("rows", "failed", "parts", "skipped")] == [9, 3, 3, 0]
     assert "No &lt;net&gt;" in page
+    assert "<b>" not in page
+    assert page.count("$&lt;b&gt;\\q$") == 3 + 5  # in tables, and above each drawing
     assert "gmr-150 cannot learn these demonstrations" in page
     assert page.count("<svg") == 5
     assert all(each not in page for each in ("src=", "<link", "@import", "url(http"))
