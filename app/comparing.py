@@ -116,7 +116,7 @@ def steps(
     Compared
         The last one has nothing left to do.
     """
-    arm = make_arm() if conditions.obstacles else None
+    arm, known = make_arm() if conditions.obstacles else None, asked
     try:
         task = replace(
             task_of(asked.source.source),
@@ -126,12 +126,11 @@ def steps(
         )
         rounds = 1 if arm is None else 2
         made = comparing(task, methods(asked.names, task.tube), count, repeats=1)
-        known = asked
         for step, found in enumerate(made):
             known = _known(known, found, step, rounds)
             yield known
     except GcError as error:
-        yield replace(asked, problem=str(error), doing="")
+        yield replace(known, problem=str(error), doing="")
     finally:
         if arm is not None:
             arm.close()

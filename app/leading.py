@@ -131,7 +131,8 @@ class Leading:
             desk.say(sentences.too_short(part), warning=True)
             return
         shown = drawn.taken_back(drawn.demonstration(part), among)
-        former = desk.view.redo
+        there = [one.demonstration for one in desk.store.document.demonstrations]
+        former = next((one for one in there if one is desk.view.redo), None)  # it may be deleted by now
         name = "demonstrate" if former is None else f"show {former.name} again"
         desk.store.edit(lambda d: drawn.added(d, shown, former), name, now=now)
         desk.look(redo=None)

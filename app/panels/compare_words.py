@@ -64,11 +64,18 @@ def claims_in_words(found: Comparison) -> list[str]:
     count = words.count(len(found.starts), "path")
     said = [_of_tube(claim, found, count) for claim in told if claim.method == TUBE]
     others = [claim for claim in told if claim.method != TUBE]
-    for holds, verb in ((True, "bring them together"), (False, "do not bring them together here")):
-        named = [claim for claim in others if claim.holds == holds]
-        if named:
-            said.append(f"{_list([LOOKS[c.method].label for c in named])} {verb}: {_parts(named)} is left.")
+    for holds in (True, False):
+        if named := [claim for claim in others if claim.holds == holds]:
+            labels = [LOOKS[claim.method].label for claim in named]
+            verb = _verb(len(named), holds=holds)
+            said.append(f"{_list(labels)} {verb}: {_parts(named)} is left.")
     return said
+
+
+def _verb(count: int, *, holds: bool) -> str:
+    if holds:
+        return "brings them together" if count == 1 else "bring them together"
+    return f"{'does' if count == 1 else 'do'} not bring them together here"
 
 
 def _of_tube(claim: Claim, found: Comparison, count: str) -> str:

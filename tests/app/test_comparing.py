@@ -12,12 +12,14 @@ from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
+import numpy.typing as npt
 import pytest
 
 from app import edits
 from app.actor import Actor
 from app.arm import Jaco, PlanarArm
 from app.arm.conditions import FREE, Conditions
+from app.arm.findings import Clearance
 from app.baselines import Run
 from app.compared import LOOKS, Compared
 from app.comparing import Comparing, asked_for, steps
@@ -29,6 +31,7 @@ from app.model import learn
 from app.scene.style import DEMONSTRATION, DIRECTRIX, REPRODUCTION
 from app.skills import empty_skill, load_skill
 from app.touching import clearances
+from gc_core import GcError
 from tests.panels.desk import taught
 
 SKILLS = Path(__file__).resolve().parents[2] / "static" / "skills"
@@ -219,6 +222,25 @@ def test_the_arm_is_asked_after_all_methods_have_answered(jaco: Jaco) -> None:
 
     assert clear == [[], [False], [False, False], [True, False], [True, True]]
     assert told[3].doing == "Ramp: the arm is led along it, 2 of 2"
+
+
+class Lame(PlanarArm):
+    """The tiny arm, which cannot say how clear it is."""
+
+    def under(self, conditions: Conditions) -> Lame:
+        return self
+
+    def clearance(self, joints: npt.ArrayLike) -> Clearance:
+        raise GcError("The arm does not answer.")
+
+
+def test_what_is_known_already_stays_when_the_work_ends_early() -> None:
+    heeded = Conditions((Box("box", (0.0, 0.0, 0.3), (0.1, 0.1, 0.1)),))
+    last = list(steps(asked_for(learn(taught()), RAMP), 5, heeded, Lame))[-1]
+
+    assert (last.problem, last.doing) == ("The arm does not answer.", "")
+    assert last.found is not None
+    assert [row.method for row in last.found.rows] == ["gc", "ramp"]
 
 
 # What different kinds of cones make of light, in linear RGB: Vienot, Brettel and Mollon 1999.

@@ -75,6 +75,16 @@ def test_what_is_shown_again_takes_the_place_of_the_old_one_in_one_undo_step() -
     assert desk.store.undo_name is None
 
 
+def test_what_was_deleted_before_it_was_shown_again_is_not_said_to_be_replaced() -> None:
+    desk, _, mouse = again(pulled=False)
+    desk.store.edit(lambda d: edits.delete_demonstration(d, 0), "delete", now=mouse.now)
+    mouse.release()
+    mouse.wait(0.4)
+
+    assert "took the place" not in desk.state().message
+    assert desk.store.undo_name == "demonstrate"
+
+
 def test_while_it_is_shown_again_the_tube_is_learned_without_the_old_one() -> None:
     desk, former, _ = again(pulled=False)
     model = desk.state().model

@@ -111,5 +111,5 @@ def test_what_becomes_of_the_paths_is_said_as_it_is(half_way: float, said: str) 
 
     assert said in sentences[0]
     merged = half_way < 0.01
-    assert sentences[1].startswith("DMP 5 bring") == merged
-    assert ("do not bring them together here" in sentences[1]) != merged
+    assert sentences[1].startswith("DMP 5 brings them together:") == merged
+    assert sentences[1].startswith("DMP 5 does not bring them together here:") != merged
