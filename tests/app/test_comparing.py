@@ -227,10 +227,7 @@ def test_the_arm_is_asked_after_all_methods_have_answered(jaco: Jaco) -> None:
 class Lame(PlanarArm):
     """The tiny arm, which cannot say how clear it is."""
 
-    def under(self, conditions: Conditions) -> Lame:
-        return self
-
-    def clearance(self, joints: npt.ArrayLike) -> Clearance:
+    def clearance(self, joints: npt.ArrayLike) -> Clearance:  # noqa: ARG002 - as the protocol has it
         raise GcError("The arm does not answer.")
 
 
