@@ -17,8 +17,9 @@ from app.compared import LOOKS, Look
 from app.comparison import Comparison
 from app.document import FloatArray
 from app.palette import RED
-from app.tube_svg import path_of, some
+from app.tube_svg import path_of
 from gc_core import Demonstration, GeneralizedCylinder
+from gc_core.arrays import evenly
 
 COLUMNS: Final = 3
 WIDTH: Final = 500.0
@@ -138,7 +139,7 @@ def _small(look: Look, runs: list[FloatArray]) -> str:
 
 def _rings(cylinder: GeneralizedCylinder) -> FloatArray:
     """(k, m, 3) some of the slices' rims [m]."""
-    return cylinder.surface()[some(len(cylinder.directrix), RINGS)]
+    return cylinder.surface()[evenly(len(cylinder.directrix), RINGS)]
 
 
 def _hulls(rings: FloatArray) -> list[FloatArray]:
@@ -154,4 +155,4 @@ def _hulls(rings: FloatArray) -> list[FloatArray]:
 
 
 def _line(points: FloatArray) -> FloatArray:
-    return points[some(len(points), POINTS)]
+    return points[evenly(len(points), POINTS)]

@@ -12,7 +12,7 @@ from app.document import FloatArray
 from app.quality import Postures
 from app.store import State
 from gc_core import Demonstration
-from gc_core.arrays import interpolated
+from gc_core.arrays import evenly, interpolated
 
 NOTHING: Final[dict[Demonstration, FloatArray]] = {}
 LOOKED_AT: Final = 100
@@ -35,7 +35,7 @@ def joints_along(arm: Arm, demonstration: Demonstration) -> FloatArray:
         The arm's joints; between the places that are looked at they go evenly [rad].
     """
     count = len(demonstration.times)
-    kept = np.unique(np.linspace(0, count - 1, LOOKED_AT).round().astype(np.intp))
+    kept = evenly(count, LOOKED_AT)
     turned = None if demonstration.orientations is None else demonstration.orientations[kept]
     found = arm.follow(demonstration.positions[kept], orientations=turned).joints
     samples, places = np.arange(count, dtype=np.float64), np.asarray(kept, dtype=np.float64)

@@ -18,6 +18,8 @@ from app.model import Model
 from app.proposal import Correction, Proposal
 from app.subject import Subject, subject_of
 from gc_core import soft_correction
+from gc_core.arrays import evenly
+from gc_core.frames import arc_length
 
 NARROWEST: Final = 0.02
 WIDEST: Final = 0.60
@@ -188,7 +190,7 @@ def place_on(node: str, share: float, model: Model, waiting: Proposal | None) ->
 
 
 def _sample(path: FloatArray, share: float) -> int:
-    gone = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+    gone = arc_length(path)
     return int(np.argmin(np.abs(gone - np.clip(share, 0.0, 1.0) * gone[-1])))
 
 
@@ -202,7 +204,7 @@ def unfollowable(arm: Arm, proposal: Proposal) -> str:
 
 
 def _fault(arm: Arm, path: FloatArray) -> str:
-    kept = np.unique(np.linspace(0, len(path) - 1, LOOKED_AT).round().astype(int))
+    kept = evenly(len(path), LOOKED_AT)
     errors = arm.follow(path[kept]).errors
     worst = int(np.argmax(errors))
     if errors[worst] <= OFF:

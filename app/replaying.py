@@ -22,6 +22,7 @@ from app.servo import Motion
 from app.store import Hand, Progress
 from app.subject import Subject
 from gc_core import Demonstration, Reproduction
+from gc_core.arrays import evenly
 
 MOST_SAMPLES: Final = 400
 """A route is planned at so many of a path's samples."""
@@ -83,7 +84,7 @@ class Replaying:
         """
         self.subject: Final = subject
         self._arm = arm
-        kept = np.unique(np.linspace(0, len(subject.path.times) - 1, MOST_SAMPLES).round().astype(int))
+        kept = evenly(len(subject.path.times), MOST_SAMPLES)
         times, places = subject.path.times[kept], subject.path.positions[kept]
         joints = arm.follow(places, hand.joints).joints
         self._approach = _way_to(arm, hand.joints, joints[0], now)

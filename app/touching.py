@@ -8,6 +8,7 @@ from app.arm.protocol import Arm
 from app.arm.shapes import Shape, pose_of, surface_distance
 from app.baselines import Run
 from app.document import FloatArray
+from gc_core.arrays import evenly
 
 SAMPLES = 40
 """Places of a run at which the arm is asked: within 2 mm of what 200 say on the built-in skills."""
@@ -18,7 +19,7 @@ def clearances(runs: tuple[Run, ...], things: tuple[Shape, ...], arm: Arm | None
 
     Parameters
     ----------
-    runs : sequence of S Run
+    runs : tuple of S Run
     things : tuple of Shape
         What must not be touched.
     arm : Arm, optional
@@ -42,7 +43,7 @@ def clearances(runs: tuple[Run, ...], things: tuple[Shape, ...], arm: Arm | None
 
 
 def _of_arm(path: FloatArray, arm: Arm) -> float:
-    some = np.unique(np.linspace(0, len(path) - 1, SAMPLES).round().astype(np.intp))
+    some = evenly(len(path), SAMPLES)
     return float(arm.clearance(arm.follow(path[some]).joints).obstacles.min())
 
 

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.document import FloatArray
 from app.palette import BLUE, EDGE, RED
 from gc_core import GeneralizedCylinder
+from gc_core.arrays import evenly
 
 WIDTH: Final = 1000.0
 HEIGHT: Final = 760.0
@@ -106,7 +106,7 @@ def tube_svg(cylinder: GeneralizedCylinder, projection: Projection) -> str:
     str
         An ``<svg>`` element.
     """
-    stations = some(len(cylinder.directrix), POINTS)
+    stations = evenly(len(cylinder.directrix), POINTS)
     lines = projection.on_paper(cylinder.effective_points[stations])
     shown = "".join(path_of(lines[:, j]) for j in range(lines.shape[1]))
     middle = path_of(projection.on_paper(cylinder.directrix[stations]))
@@ -162,8 +162,8 @@ def _axes(cylinder: GeneralizedCylinder) -> FloatArray:
 
 def _skin(cylinder: GeneralizedCylinder, projection: Projection) -> str:
     """Those quads of the surface that face the eye; the ones of a shade are one path."""
-    stations = some(len(cylinder.directrix), RINGS)
-    rings = cylinder.surface()[np.ix_(stations, some(cylinder.radii.shape[1] + 1, SIDES + 1)[:-1])]
+    stations = evenly(len(cylinder.directrix), RINGS)
+    rings = cylinder.surface()[np.ix_(stations, evenly(cylinder.radii.shape[1] + 1, SIDES + 1)[:-1])]
     beside = np.roll(rings, -1, axis=1)
     corners = np.stack([rings[:-1], beside[:-1], beside[1:], rings[1:]], axis=2)
     outward = np.cross(corners[:, :, 2] - corners[:, :, 0], corners[:, :, 3] - corners[:, :, 1])
@@ -200,8 +200,3 @@ def path_of(points: FloatArray) -> str:
     whole = np.rint(points).astype(int)
     x, y = whole[0].tolist()
     return f"M{x} {y}l" + " ".join(f"{dx} {dy}" for dx, dy in np.diff(whole, axis=0).tolist())
-
-
-def some(count: int, most: int) -> NDArray[np.intp]:
-    """At most so many indices, evenly, the ends among them."""
-    return np.unique(np.linspace(0, count - 1, most).round().astype(np.intp))

@@ -82,6 +82,12 @@ def preceding(values: NDArray[Scalar]) -> NDArray[Scalar]:
     return np.concatenate((values[:, -1:], values[:, :-1]), axis=1)
 
 
+def evenly(count: int, most: int) -> IntArray:
+    """At most ``most`` indices into ``count`` things, spread evenly, the first and the last among them."""
+    most = min(most, count)
+    return np.rint(np.arange(most) * (count - 1) / max(most - 1, 1)).astype(np.intp)
+
+
 def fading(part: FloatArray) -> FloatArray:
     """Fall from 1 at part 0 to 0 at part 1, with level ends."""
     return (1.0 - part) ** 2 * (1.0 + 2.0 * part)

@@ -11,6 +11,7 @@ from app.figures import sheet as fig
 from app.figures.subject import Subject
 from app.figures.views import seen_across, seen_flat
 from gc_core import GeneralizedCylinder
+from gc_core.arrays import evenly
 from gc_core.frames import angles_between, smooth
 
 AXES: Final = (("T", fig.INK), ("N", fig.REFINED), ("B", "#B8860B"))
@@ -69,7 +70,7 @@ def _frames(where: fig.Space, cylinder: GeneralizedCylinder) -> None:
 def _comb(where: fig.Space, cylinder: GeneralizedCylinder, normals: FloatArray) -> None:
     """Draw normals (N, 3) as teeth along the directrix, with a line through their tips."""
     tips = cylinder.directrix + AXIS_LENGTH * float(np.ptp(cylinder.directrix, axis=0).max()) * normals
-    some = np.linspace(0, len(tips) - 1, WHISKERS).astype(int)
+    some = evenly(len(tips), WHISKERS)
     teeth = list(np.stack((cylinder.directrix[some], tips[some]), axis=1))
     fig.lines(where, teeth, "N", color=fig.REFINED, linewidth=0.7)
     where.plot(tips, color=fig.REFINED, linewidth=0.9)

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import Any, Final
 
-import numpy as np
-
 from app.figures import sheet as fig
 from app.figures.subject import Subject
 from app.figures.views import seen_across
+from gc_core.arrays import evenly
 
 STATIONS: Final = 9
 """Slices that are drawn while the tube is made."""
@@ -35,7 +34,7 @@ def draw(subjects: tuple[Subject, ...]) -> Any:
     shown = {"color": fig.DEMONSTRATION, "linewidth": 0.9}
     fig.lines(cells[0], subject.paths, "demonstrations", **shown)
     fig.lines(cells[1], list(cylinder.aligned), "demonstrations", **shown)
-    some = np.linspace(0, len(cylinder.directrix) - 1, LINKS).astype(int)
+    some = evenly(len(cylinder.directrix), LINKS)
     links = [cylinder.aligned[:, station] for station in some]
     fig.lines(cells[1], links, "same station", color=fig.TUBE, linewidth=0.6, marker=".", markersize=2)
     spine = {"color": fig.DIRECTRIX, "linewidth": 2.0, "label": "directrix"}
@@ -52,7 +51,7 @@ def draw(subjects: tuple[Subject, ...]) -> Any:
 
 def _slices(where: fig.Space, subject: Subject) -> None:
     cylinder = subject.cylinder
-    some = np.linspace(0, len(cylinder.directrix) - 1, STATIONS).astype(int)
+    some = evenly(len(cylinder.directrix), STATIONS)
     rings = list(fig.closed(cylinder.surface())[some])
     fig.lines(where, rings, "cross-section", color=fig.INK, linewidth=0.9)
     points = cylinder.effective_points[some].reshape(-1, 3)

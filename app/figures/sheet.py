@@ -25,6 +25,7 @@ from app.arm.shapes import Shape, pose_of
 from app.document import FloatArray
 from app.figures.catalogue import Form
 from gc_core import GeneralizedCylinder
+from gc_core.arrays import evenly
 
 DEMONSTRATION, DIRECTRIX, TUBE, REPRODUCTION, GOAL = "#C4161C", "#1F3FA8", "#8E96A6", "#E04BDC", "#F2BA1A"
 REFINED = "#1A9E73"
@@ -136,10 +137,10 @@ def space(figure: Any, place: Any, view: FloatArray, room: Iterable[FloatArray] 
 def tube(where: Space, cylinder: GeneralizedCylinder, *, things: Sequence[Shape] = ()) -> None:
     """Draw a tube with its directrix, and things that may stand before or behind it."""
     rings = closed(cylinder.surface())
-    bare = rings[_some(len(rings), RINGS)][:, _some(rings.shape[1], SIDES + 1)]
+    bare = rings[evenly(len(rings), RINGS)][:, evenly(rings.shape[1], SIDES + 1)]
     quads = np.stack([bare[:-1, :-1], bare[:-1, 1:], bare[1:, 1:], bare[1:, :-1]], axis=2).reshape(-1, 4, 3)
     _paint(where, [(quads, SKIN), *((body, BODY) for body in map(faces_of, things))])
-    for ring in rings[_some(len(rings), OUTLINES)]:
+    for ring in rings[evenly(len(rings), OUTLINES)]:
         where.plot(ring, color=TUBE, linewidth=0.35, alpha=0.8, zorder=1)
     where.plot(cylinder.directrix, color=DIRECTRIX, linewidth=2.0, label="directrix", zorder=2.2)
 
@@ -153,7 +154,7 @@ def bodies(where: Space, things: Sequence[Shape]) -> None:
 def former(where: Space, cylinder: GeneralizedCylinder) -> None:
     """Draw faintly where a tube was taught."""
     rings = closed(cylinder.surface())
-    for ring in rings[_some(len(rings), OUTLINES)]:
+    for ring in rings[evenly(len(rings), OUTLINES)]:
         where.plot(ring, color=TUBE, alpha=0.35, linewidth=0.5, zorder=-1)
     look = {"color": DIRECTRIX, "alpha": 0.35, "linewidth": 1.2, "zorder": -0.5}
     where.plot(cylinder.directrix, label="directrix as taught", **look)
@@ -259,11 +260,6 @@ def saved(figure: Any, form: Form, dots_per_inch: float | None = None) -> bytes:
 def closed(rings: FloatArray) -> FloatArray:
     """Rings (N, M, 3) that end where they begin, (N, M + 1, 3)."""
     return np.concatenate((rings, rings[:, :1]), axis=1)
-
-
-def _some(count: int, most: int) -> Any:
-    """At most so many indices, evenly, the ends among them."""
-    return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(np.intp))
 
 
 def faces_of(thing: Shape) -> FloatArray:

@@ -10,11 +10,12 @@ from app.document import FloatArray
 from app.scene.geometry import pick_tube, tube_mesh
 from app.scene.nodes import Line, Mesh
 from app.scene.playhead import station_at, time_of
-from app.scene.polyline import along, evenly, nearest_to_ray, segments
+from app.scene.polyline import along, nearest_to_ray, segments
 from app.scene.pulls import checked_point
 from app.scene.style import DIRECTRIX, FORMER_OPACITY, SECTION, THICK, TUBE, TUBE_OPACITY
 from app.store import State
 from gc_core import GeneralizedCylinder
+from gc_core.arrays import evenly
 
 AT_REST: Final = (100, 32)
 """Stations and angles of the drawn tube."""

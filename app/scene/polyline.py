@@ -6,9 +6,9 @@ Pure functions of arrays, nothing of viser. Lengths are metres.
 import math
 
 import numpy as np
-import numpy.typing as npt
 
 from app.document import FloatArray
+from gc_core.arrays import evenly
 
 
 def segments(points: FloatArray) -> FloatArray:
@@ -32,12 +32,6 @@ def thin_out(points: FloatArray, most: int) -> FloatArray:
     if len(points) <= most:
         return points
     return points[evenly(len(points), most)]
-
-
-def evenly(count: int, most: int) -> npt.NDArray[np.intp]:
-    """At most ``most`` indices into ``count`` things, spread evenly, the first and the last among them."""
-    most = min(most, count)
-    return np.rint(np.arange(most) * (count - 1) / max(most - 1, 1)).astype(np.intp)
 
 
 def arc_length(points: FloatArray) -> FloatArray:

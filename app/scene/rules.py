@@ -14,10 +14,10 @@ from app.biting import Bite
 from app.document import FloatArray
 from app.scene.geometry import Faces, Vertices, across
 from app.scene.nodes import Line, Mesh
-from app.scene.polyline import evenly
 from app.scene.style import REFINED
 from app.store import State
 from gc_core import Constraint
+from gc_core.arrays import evenly
 
 MOST_PLANES: Final = 12
 MOST_ARROWS: Final = 24
