@@ -53,16 +53,25 @@ def timed(
     """
     method.ready()
     with one_thread():
-        skill, quickest = _fitted(method, demonstrations)
+        skill, quickest = fitted(method, demonstrations)
         spent = quickest
         for _ in range(repeats - 1):
             if spent > ENOUGH:
                 break
-            skill, seconds = _fitted(method, demonstrations)
+            skill, seconds = fitted(method, demonstrations)
             quickest, spent = min(quickest, seconds), spent + seconds
         began = perf_counter()
         runs = tuple(skill.reproduce(start) for start in starts)
         return Timed(runs, 1000.0 * quickest, 1000.0 * (perf_counter() - began) / len(starts))
+
+
+def fitted(method: Method, demonstrations: Sequence[Demonstration]) -> tuple[Skill, float]:
+    """Fit once, and say how long it took [s]."""
+    # Copies, since what was computed of a demonstration before would be remembered with it.
+    fresh = [replace(each) for each in demonstrations]
+    began = perf_counter()
+    skill = method.fit(fresh)
+    return skill, perf_counter() - began
 
 
 def one_thread() -> AbstractContextManager[object]:
@@ -72,12 +81,3 @@ def one_thread() -> AbstractContextManager[object]:
     except ImportError:
         return nullcontext()
     return limit(1)
-
-
-def _fitted(method: Method, demonstrations: Sequence[Demonstration]) -> tuple[Skill, float]:
-    """Fit once, and say how long it took [s]."""
-    # Copies, since what was computed of a demonstration before would be remembered with it.
-    fresh = [replace(each) for each in demonstrations]
-    began = perf_counter()
-    skill = method.fit(fresh)
-    return skill, perf_counter() - began

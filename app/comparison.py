@@ -12,13 +12,13 @@ from dataclasses import dataclass, field, replace
 from typing import Final
 
 import numpy as np
-from scipy.spatial.distance import cdist
 
 from app.arm.protocol import Arm
 from app.arm.shapes import Shape
 from app.baselines import BaselineError, Method, Run, Taught, Tube, places_at, taught
 from app.clocking import REPEATS, timed
 from app.document import Document, FloatArray
+from app.likeness import nearest_dtw, nearest_frechet
 from app.touching import clearances
 from gc_core import Demonstration, GeneralizedCylinder, InvalidSettingError, metrics
 
@@ -230,10 +230,15 @@ def half_way(run: Run, cylinder: GeneralizedCylinder) -> FloatArray:
     return found[np.linalg.norm(found - centre, axis=1).argmin()]
 
 
+def width_half_way(cylinder: GeneralizedCylinder) -> float:
+    """How wide a tube is in its middle slice, by its width in the first one [-]."""
+    widths = cylinder.radii.mean(axis=1)
+    return float(widths[len(widths) // 2] / widths[0])
+
+
 def claims(comparison: Comparison) -> tuple[Claim, ...]:
     """Check Fig. 9: the tube keeps paths distinct, the movement primitives and the mixtures merge them."""
-    widths = comparison.cylinder.radii.mean(axis=1)
-    wide = float(widths[len(widths) // 2] / widths[0])
+    wide = width_half_way(comparison.cylinder)
     found: list[Claim] = []
     for row in comparison.rows:
         if row.spread_mid_m is None or not row.spread_start_m:
@@ -276,32 +281,14 @@ def _tried(
 def _judged(row: Row, runs: tuple[Run, ...], cylinder: GeneralizedCylinder, shown: Taught) -> Row:
     """Add how good the runs are."""
     paths = [run.positions for run in runs]
-    leash = [_leash(path, shown.paths) for path in paths]
-    warped = [min(metrics.dtw(path, other) for other in shown.paths) / len(path) for path in paths]
     return replace(
         row,
         spread_mid_m=spread(np.array([half_way(run, cylinder) for run in runs])),
         end_error_m=_mean([metrics.end_error(path, cylinder.directrix[-1]) for path in paths]),
-        frechet_m=_mean(leash),
-        dtw_m=_mean(warped),
+        frechet_m=_mean([nearest_frechet(path, shown.paths) for path in paths]),
+        dtw_m=_mean([nearest_dtw(path, shown.paths) for path in paths]),
         jerk=_mean([metrics.jerk(run.positions, run.times) for run in runs]),
     )
-
-
-def _leash(path: FloatArray, others: FloatArray) -> float:
-    """Frechet distance of a path (K, 3) from the nearest of others (n, L, 3) [m].
-
-    No leash is shorter than what takes both ends and every place to the other path: most others need not be
-    walked along.
-    """
-    shortest = np.inf
-    apart = [np.asarray(cdist(path, other), dtype=np.float64) for other in others]
-    bounds = [max(d[0, 0], d[-1, -1], d.min(axis=0).max(), d.min(axis=1).max()) for d in apart]
-    for number in np.argsort(bounds):
-        if bounds[number] >= shortest:
-            break
-        shortest = min(shortest, metrics.frechet(path, others[number]))
-    return shortest
 
 
 def _cleared(row: Row, runs: tuple[Run, ...], task: Task) -> Row:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, Final
 
-from app.baselines import Tube, methods
-from app.comparison import Comparison, Row, Task, compare
+from app.baselines import methods
+from app.comparison import Comparison, Row, compare, task_of
 from app.figures import sheet as fig
 from app.figures.subject import Subject
 from app.figures.views import seen_flat
@@ -27,11 +28,8 @@ def draw(subjects: tuple[Subject, ...]) -> Any:
     touch what stands in the way; the last panel shows the former beside the starts' own spread.
     """
     subject = subjects[0]
-    settings = subject.document.settings
-    tube = Tube(settings.section, settings.align_by)
-    found = compare(
-        Task(subject.demonstrations, tube, subject.document.things), methods(tuple(METHODS), tube), STARTS
-    )
+    task = replace(task_of(subject.document), demonstrations=subject.demonstrations)
+    found = compare(task, methods(tuple(METHODS), task.tube), STARTS)
     figure = fig.sheet(7.6, 4.4)
     grid = figure.add_gridspec(2, 3)
     view, room = seen_flat(subject.cylinder), [found.cylinder.surface(), *subject.paths]

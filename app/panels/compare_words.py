@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from app.compared import LOOKS, TUBE, Compared, Look
-from app.comparison import Claim, Comparison, Row, claims
+from app.comparison import Claim, Comparison, Row, claims, width_half_way
 from app.panels import words
 
 CLEARLY: Final = 0.8
@@ -79,8 +79,7 @@ def _verb(count: int, *, holds: bool) -> str:
 
 
 def _of_tube(claim: Claim, found: Comparison, count: str) -> str:
-    widths = found.cylinder.radii.mean(axis=1)
-    wide = f"the tube is {100.0 * float(widths[len(widths) // 2] / widths[0]):.0f} % as wide there"
+    wide = f"the tube is {100.0 * width_half_way(found.cylinder):.0f} % as wide there"
     left = f"half way {100.0 * claim.kept:.0f} % of the starts' distance is left, and {wide}"
     if claim.holds:
         return f"The tube keeps the {count} apart as far as it is wide: {left}."

@@ -16,10 +16,12 @@ import numpy as np
 
 from app.baselines import Method, Run, Skill, Taught, Tube, methods, taught
 from app.baselines.tube import TubeSkill
+from app.clocking import fitted
 from app.comparison import half_way
 from app.document import Alignment, FloatArray
+from app.likeness import nearest_dtw, nearest_frechet
 from app.study.errors import OtherVersionsError
-from app.study.measures import Row, in_ball, nearest_dtw, nearest_frechet, on_sections, shape_change
+from app.study.measures import Row, in_ball, on_sections, shape_change
 from app.study.parts import Experiment, Part, random_numbers, versions
 from app.study.sources import DataSet
 from app.study.spec import Plan
@@ -68,11 +70,8 @@ class _Watch:
     runs: list[float] = field(default_factory=list[float])
 
     def fit(self, method: Method, data: DataSet) -> Skill:
-        # Copies, since what was computed of a demonstration before would be remembered with it.
-        fresh = [replace(each) for each in data.demonstrations]
-        began = perf_counter()
-        skill = method.fit(fresh)
-        self.fits.append(perf_counter() - began)
+        skill, seconds = fitted(method, data.demonstrations)
+        self.fits.append(seconds)
         return skill
 
     def run(self, skill: Skill, start: FloatArray, goal: FloatArray | None = None) -> Run:

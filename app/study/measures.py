@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import cast
 
 import numpy as np
 
 from app.document import FloatArray
-from gc_core import GeneralizedCylinder, metrics
+from gc_core import GeneralizedCylinder
 from gc_core.radius import radius_at
 
 
@@ -110,22 +108,3 @@ def shape_change(one: FloatArray, other: FloatArray) -> float:
     rest = b - scale * a @ (left @ np.diag(sign) @ right).T
     length = float(np.linalg.norm(np.diff(other, axis=0), axis=1).sum())
     return float(np.sqrt((rest**2).sum(axis=1).mean())) / length
-
-
-def nearest_frechet(path: FloatArray, others: Iterable[FloatArray]) -> float:
-    """Frechet distance of a path (K, 3) from the nearest of some others [m].
-
-    The ends of two paths are a lower bound, so most of the others need not be walked along.
-    """
-    gaps = [(float(np.linalg.norm(path[[0, -1]] - other[[0, -1]], axis=1).max()), other) for other in others]
-    best = math.inf
-    for gap, other in sorted(gaps, key=lambda each: each[0]):
-        if gap >= best:
-            break
-        best = min(best, metrics.frechet(path, other))
-    return best
-
-
-def nearest_dtw(path: FloatArray, others: Iterable[FloatArray]) -> float:
-    """Dynamic time warping distance of a path (K, 3) from the nearest of some others, by its samples [m]."""
-    return min(metrics.dtw(path, other) for other in others) / len(path)

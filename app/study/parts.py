@@ -28,7 +28,7 @@ EXPERIMENTS: Final[tuple[Experiment, ...]] = ("left_out", "moves", "starts")
 TUBE: Final = "gc"
 """The method that has kinds of slices."""
 OURS: Final = "gc-teach"
-CODE: Final = ("gc_core/*.py", "app/baselines/*.py", "app/study/*.py", "app/comparison.py")
+CODE: Final = ("gc_core/*.py", "app/baselines/*.py", "app/study/*.py", "app/comparison.py", "app/likeness.py")
 PACKAGES: Final = (OURS, "numpy", "scipy", "dtaidistance", "gmr", "movement_primitives")
 """What the numbers come from."""
 

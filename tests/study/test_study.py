@@ -17,11 +17,12 @@ import pyarrow.parquet
 import pytest
 
 from app.__main__ import main
+from app.likeness import nearest_frechet
 from app.study import executors
 from app.study.errors import ClusterError, OtherVersionsError
 from app.study.experiments import Job, work
 from app.study.keeping import Shelf
-from app.study.measures import Row, nearest_frechet, shape_change
+from app.study.measures import Row, shape_change
 from app.study.parts import Part, versions
 from app.study.running import Outcome, run_study
 from app.study.sources import data_set
