@@ -38,6 +38,9 @@ REMEMBERED: Final = 365 * 24 * 3600
 """So long a browser remembers the codes that it opened [s]."""
 MOST_OPENED: Final = 40
 LOCAL: Final = ("localhost", "127.0.0.1", "[::1]")
+LOOPBACK: Final = ("127.0.0.1", "::1")
+FORWARDED: Final = ("Forwarded", "X-Forwarded-For", "X-Real-IP")
+"""By one of these a proxy says that somebody else is behind it."""
 NO_CODE: Final = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>
 <meta name="viewport" content="width=device-width"><meta name="color-scheme" content="light dark">
 <body style="font:1.1rem/1.5 system-ui,sans-serif;max-width:34rem;margin:15vh auto;padding:0 1rem">
@@ -117,9 +120,17 @@ def opened_codes(cookies: str) -> tuple[str, ...]:
     return ()
 
 
-def is_local(host: str) -> bool:
-    """Whether a ``Host`` header names the machine that the browser itself runs on."""
-    return host.rpartition(":")[0] in LOCAL or host in LOCAL
+def is_local(host: str, peer: str) -> bool:
+    """Whether a browser runs on the server's own machine.
+
+    Parameters
+    ----------
+    host
+        What its address bar shows, which another program can claim.
+    peer
+        Where its connection comes from, which is here for everybody behind a proxy.
+    """
+    return peer in LOOPBACK and (host.rpartition(":")[0] in LOCAL or host in LOCAL)
 
 
 def same_origin(origin: str | None, host: str | None) -> bool:

@@ -28,6 +28,7 @@ from websockets.http11 import Request, Response
 
 from app.guard import OnRefused, guard
 from app.pages import (
+    FORWARDED,
     Reply,
     Site,
     answer,
@@ -151,14 +152,15 @@ def code_of(client: viser.ClientHandle) -> str:
 def known_codes(client: viser.ClientHandle) -> frozenset[str] | None:
     """The codes that a connected tab's browser has opened; None, all, on the server's own machine.
 
-    What the person sees in the address bar decides, not where the connection comes from: behind a
-    proxy everybody would seem to sit here.
+    Who claims to sit there must also connect from there, and not by a proxy.
     """
     connection = _connection(client)
     request = None if connection is None else connection.request
-    if request is None:
+    if connection is None or request is None:
         return frozenset()
-    if is_local(_header(request, "Host") or ""):
+    forwarded = any(name in request.headers for name in FORWARDED)
+    peer = "" if forwarded or not connection.remote_address else str(connection.remote_address[0])
+    if is_local(_header(request, "Host") or "", peer):
         return None
     return frozenset(opened_codes(_header(request, "Cookie") or ""))
 

@@ -16,7 +16,7 @@ import contextlib
 import threading
 import time
 import uuid
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import TracebackType
 from typing import Any
 
@@ -39,8 +39,16 @@ CHUNK = 512 * 1024
 class FakeClient:
     """One tab: connects on entering, closes on leaving."""
 
-    def __init__(self, url: str, *, origin: str | None = None, keep_log: bool = False) -> None:
+    def __init__(
+        self,
+        url: str,
+        *,
+        origin: str | None = None,
+        headers: Mapping[str, str] | None = None,
+        keep_log: bool = False,
+    ) -> None:
         self.url = url
+        self._headers = headers
         self.bytes_received = 0
         self.frames_received = 0
         self.messages_received = 0
@@ -65,6 +73,7 @@ class FakeClient:
             self.url,
             subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
             origin=self._origin,
+            additional_headers=self._headers,
             max_size=None,
             compression=None,
             close_timeout=2.0,

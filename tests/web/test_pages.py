@@ -129,17 +129,19 @@ def test_a_cookie_that_was_tampered_with_names_no_codes(cookies: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("host", "local"),
+    ("host", "peer", "local"),
     [
-        ("localhost:8080", True),
-        ("127.0.0.1", True),
-        ("[::1]:80", True),
-        ("lab.example:8080", False),
-        ("", False),
+        ("localhost:8080", "127.0.0.1", True),
+        ("127.0.0.1", "127.0.0.1", True),
+        ("[::1]:80", "::1", True),
+        ("lab.example:8080", "127.0.0.1", False),
+        ("localhost:8080", "192.168.0.7", False),
+        ("localhost:8080", "", False),
+        ("", "127.0.0.1", False),
     ],
 )
-def test_only_who_sits_at_the_server_sees_all_skills(host: str, local: bool) -> None:
-    assert is_local(host) is local
+def test_only_who_sits_at_the_server_sees_all_skills(host: str, peer: str, local: bool) -> None:
+    assert is_local(host, peer) is local
 
 
 def test_another_method_than_get_loses_its_connection_and_nothing_else(site: Site) -> None:

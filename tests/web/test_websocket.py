@@ -15,15 +15,45 @@ import viser
 from viser import _messages as messages
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-from app.web import MESSAGE_LIMIT, BusyPortError, CannotListenError, code_of, low_latency, open_server
+from app.pages import COOKIE
+from app.web import (
+    MESSAGE_LIMIT,
+    BusyPortError,
+    CannotListenError,
+    code_of,
+    known_codes,
+    low_latency,
+    open_server,
+)
 from tests.support.fake_client import CHUNK, FakeClient
-from tests.web.site import Site
+from tests.web.site import CODE, Site
 
 
 def test_a_page_of_another_site_is_refused(site: Site) -> None:
     with pytest.raises(InvalidStatus) as refusal, FakeClient(site.ws(), origin="http://evil.example"):
         pass
     assert refusal.value.response.status_code == 403
+
+
+@pytest.mark.parametrize(
+    ("headers", "known"),
+    [
+        ({}, None),
+        ({"X-Forwarded-For": "192.0.2.7"}, frozenset()),
+        ({"Forwarded": "for=192.0.2.7", "Cookie": f"{COOKIE}={CODE}"}, {CODE}),
+    ],
+)
+def test_whoever_comes_through_a_proxy_sees_no_skills_but_those_that_the_browser_opened(
+    site: Site, headers: dict[str, str], known: set[str] | None
+) -> None:
+    found: queue.Queue[frozenset[str] | None] = queue.Queue()
+
+    @site.server.on_client_connect
+    async def _(client: viser.ClientHandle) -> None:
+        found.put(known_codes(client))
+
+    with FakeClient(site.ws(), headers=headers):
+        assert found.get(timeout=5) == known
 
 
 def test_our_own_page_is_let_in(site: Site) -> None:
