@@ -43,7 +43,7 @@ class Shelving:
         self._jobs = executor, actor
         self._listing = Latest(executor, actor)
         self._drawn: dict[str, tuple[Summary, str]] = {}
-        self._made: frozenset[str] = frozenset()
+        self._made: list[str] = []
         self._known: Known = frozenset()
         self.shelf: Shelf | None = None
         """As it was last looked up."""
@@ -75,13 +75,13 @@ class Shelving:
         code = fresh_code()
         title = f"{document.title[: LONGEST_NAME - len(COPY)]}{COPY}"
         self.library.save(code, replace(document, title=title, built_in=False))
-        self._made |= {code}
+        self._made.append(code)
         return code
 
     def put_away(self, code: str, history: History, where: str) -> str:
         """Keep one's own work under a code of its own, in a worker; returns what to say then."""
         self.library.keep(code, history)
-        self._made |= {code}
+        self._made.append(code)
         return where
 
     def _list(self, among: Known) -> Shelf:

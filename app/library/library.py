@@ -24,7 +24,7 @@ from app.document import Document
 from app.history import History, Version, begin
 from app.library.codec import Array, Known, decode_document, encode_document
 from app.library.connect import open_engine
-from app.library.errors import BadCodeError, LibraryError
+from app.library.errors import BadCodeError, LibraryError, UnreadableSkillError
 from app.library.packing import ArrayNames, Packed, row_of
 from app.library.tables import arrays, insert_new, skills, steps, upsert, uses
 
@@ -160,10 +160,10 @@ class Library:
             Version(row.stamp, row.name, partial(decode_document, row.document, numbers, known))
             for row in rows
         )
-        place = [version.stamp for version in versions].index(skill.present)
-        _ = versions[
-            place
-        ].document  # now, so that whoever opens it is told; the others when they are asked for
+        place = next((i for i, row in enumerate(rows) if row.stamp == skill.present), None)
+        if place is None:
+            raise UnreadableSkillError("its present version is missing")
+        _ = versions[place].document  # now, so that whoever opens it is told; the others when asked for
         return Kept(History(versions, place), frozenset(skill.tried.split()), skill.deleted is not None)
 
     def recent(self, limit: int = 20, among: Collection[str] | None = None) -> list[Summary]:

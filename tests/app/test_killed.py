@@ -13,6 +13,7 @@ from websockets.exceptions import ConnectionClosed
 
 from app.document import Document
 from app.library import Library
+from app.model import learn
 from tests.app.site import FIRST_SCREEN, library_in, pull
 from tests.support.databases import sound
 from tests.support.fake_client import FakeClient
@@ -35,9 +36,9 @@ def places(client: FakeClient) -> np.ndarray:
 
 
 def places_in(document: Document) -> np.ndarray:
-    """(2, 3) where a saved document has them [m]; NaN where they were never moved."""
-    (goal,) = (place.now for place in document.landmarks if place.name == "goal")
-    return np.array([np.full(3, np.nan) if goal is None else goal, document.starts[0]])
+    """(2, 3) where a saved document has them [m]."""
+    (goal,) = (anchor.now for anchor in learn(document).anchors if anchor.name == "goal")
+    return np.array([goal, document.starts[0]])
 
 
 def work(client: FakeClient, dice: random.Random) -> list[np.ndarray]:
@@ -62,7 +63,7 @@ def missing(saved: Sequence[Document], acknowledged: list[np.ndarray]) -> list[n
     found = [places_in(document) for document in saved]
 
     def held(shown: np.ndarray) -> bool:
-        return any(np.all(np.isnan(one) | (np.abs(one - shown) < 1e-6)) for one in found)
+        return any(np.all(np.abs(one - shown) < 1e-6) for one in found)
 
     return [shown for shown in acknowledged if not held(shown)]
 
@@ -101,8 +102,8 @@ def test_all_that_was_said_to_be_saved_is_there_after_each_kill(
 ) -> None:
     dice = random.Random(lives)
     acknowledged: list[np.ndarray] = []
-    known = 0
-    for _ in range(lives):
-        known = kill_and_look(tmp_path, dice, known, acknowledged)
+    known, lived = 0, 0
+    while lived < lives or (len(acknowledged) < enough and lived < 3 * lives):  # a busy machine saves less
+        known, lived = kill_and_look(tmp_path, dice, known, acknowledged), lived + 1
 
     assert len(acknowledged) >= enough

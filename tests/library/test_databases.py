@@ -15,6 +15,7 @@ from app.library import (
     ForeignDatabaseError,
     Library,
     LibraryError,
+    UnreadableSkillError,
     decode_document,
     default_url,
 )
@@ -236,3 +237,13 @@ def test_the_default_is_a_file_of_the_user_unless_the_environment_names_another(
 
     monkeypatch.setenv("GC_TEACH_LIBRARY", "sqlite:///elsewhere.db")
     assert default_url() == "sqlite:///elsewhere.db"
+
+
+def test_a_skill_whose_present_version_is_missing_is_a_sentence(path: Path) -> None:
+    library = Library(f"sqlite:///{path}")
+    library.save("abc", document())
+    change(path, "UPDATE skills SET present = 1")
+
+    with pytest.raises(UnreadableSkillError, match="present version is missing"):
+        library.open("abc")
+    library.close()
