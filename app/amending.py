@@ -13,7 +13,7 @@ from app.document import Document, FloatArray, View
 from app.linepull import LinePull
 from app.model import Model
 from app.proposal import DISCARDED, FIRST_ANSWER, LOST, Choice, Pending, Proposal
-from app.replaying import Replaying
+from app.replaying import Corrected, Replaying
 from app.stage import Stage
 from app.store import Progress, Store
 from app.subject import subject_of
@@ -43,6 +43,7 @@ class Amending:
         self._replay: Replaying | None = None
         self._pending: Pending | None = None
         self._aside: Pending | None = None
+        self._corrected: tuple[Corrected | None, Document | None] = None, None
         self._contradicting: frozenset[tuple[str, ...]] = frozenset()
 
     @property
@@ -77,6 +78,11 @@ class Amending:
 
     def shown(self, document: Document) -> Document:
         """Give the document as the previewed choice would make it."""
+        made = None if self._replay is None else self._replay.so_far()
+        if self._replay is not None and made is not None:
+            if made is not self._corrected[0]:
+                self._corrected = made, _applied(self._replay, made, document)
+            return self._corrected[1] or document
         return document if self._pending is None else self._pending.shown(document)
 
     # --- a replay ----------------------------------------------------------------------
@@ -113,7 +119,7 @@ class Amending:
 
     def end(self, now: float) -> Said | None:
         """End the replay, if one runs, and offer what was corrected."""
-        replay, self._replay = self._replay, None
+        replay, self._replay, self._corrected = self._replay, None, (None, None)
         if replay is None:
             return None
         corrected = replay.finish(now)
@@ -246,3 +252,11 @@ class Amending:
         kept = self._store.edit(chosen.apply, chosen.name, now=now)  # if it fails, it waits on
         self._pending = None
         return ("", False) if kept else (LOST, True)
+
+
+def _applied(replay: Replaying, made: Corrected, document: Document) -> Document:
+    """Give a document with what a replay that goes on has corrected so far."""
+    try:
+        return correcting.proposed(replay.subject, made).choices[0].apply(document)
+    except GcError:  # said when it is offered
+        return document

@@ -32,6 +32,8 @@ LONGEST: Final = 300.0
 """A replay ends by itself after this time, even if the hand is still held [s]."""
 SETTLING: Final = 1.5
 """A replay that is stopped is continued this long at most, to see how the hand eases back [s]."""
+EASING: Final = 0.5
+"""While the hand is held it is shown as if it eased back in about this time [s]."""
 BACK: Final = 0.001
 """A hand this near to its path is back on it [m]."""
 SLIP: Final = 0.001
@@ -97,6 +99,7 @@ class Replaying:
         self._plane: FloatArray | None = None
         self._ends: float | None = None
         self._events = 0
+        self._so_far: tuple[int, Corrected | None] = -1, None
         self._held_at_end = False
         self.hand = replace(hand, recording=None, wanted=None, shortfall=None, returns_to=None)
         """Where the arm is."""
@@ -191,7 +194,23 @@ class Replaying:
             time=along - float(path.times[0]),
             duration=float(path.times[-1] - path.times[0]),
             held=self.held,
+            among=self.subject.among,
         )
+
+    def so_far(self) -> Corrected | None:
+        """Give what would be recorded if the hand were let go now; None before the first pull.
+
+        It is the same object until the held hand has moved on.
+        """
+        pulled = self._track is not None and bool(self._parts) and bool(self._parts[-1].pulled.any())
+        if not pulled or self._so_far[0] == self._replay.tick:
+            return self._so_far[1]
+        made = self._recorded(float(self._route.times[-1]))
+        gone = (made.times - self._replay.along) / (EASING * self._replay.speed)
+        fade = np.where(gone > 0.0, np.clip(1.0 - gone, 0.0, 1.0) ** 2, 0.0)
+        made = replace(made, positions=made.positions + fade[:, None] * self._replay.aside)
+        self._so_far = self._replay.tick, made
+        return made
 
     def finish(self, now: float) -> Corrected | None:
         """End it, wherever it is; the hand stays there.

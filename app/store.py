@@ -141,6 +141,8 @@ class Progress:
     """[s]."""
     held: bool
     """Whether the hand is held."""
+    among: Model | None = None
+    """What was shown before."""
 
 
 @dataclass(frozen=True, eq=False)

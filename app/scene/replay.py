@@ -105,7 +105,8 @@ def corrected(state: State) -> tuple[FloatArray | None, FloatArray]:
 
 def outlined(state: State) -> GeneralizedCylinder | None:
     """Give the tube that a correction would make, where it is another one than before."""
-    correction = state.correction or state.proposal
-    if correction is None or not state.view.show_tube or state.model.cylinder is correction.among.cylinder:
+    correction = state.correction or state.proposal or state.replay
+    before = None if correction is None else correction.among
+    if before is None or not state.view.show_tube or state.model.cylinder is before.cylinder:
         return None
     return state.model.cylinder

@@ -309,7 +309,7 @@ def test_every_event_of_a_pull_is_used(desk: Desk, mouse: Mouse, monkeypatch: py
     mouse.pull("/hand", ASIDE, events=17)
     mouse.wait(6.0)
 
-    assert kept[0].events == 1 + 17 + 1
+    assert kept[-1].events == 1 + 17 + 1
 
 
 def test_after_a_replay_the_playhead_is_at_the_beginning_and_the_hand_stays(desk: Desk, mouse: Mouse) -> None:
@@ -321,3 +321,25 @@ def test_after_a_replay_the_playhead_is_at_the_beginning_and_the_hand_stays(desk
 
     assert desk.state().playback.time == 0.0
     np.testing.assert_array_equal(desk.state().hand.position, hand)
+
+
+def test_the_tube_of_the_correction_is_seen_while_the_hand_is_held_and_nothing_is_kept(
+    desk: Desk, mouse: Mouse
+) -> None:
+    before, kept = desk.state().model.cylinder, desk.store.document
+    replay(desk, mouse)
+    mouse.press("/hand")
+    for _ in range(6):
+        mouse.move(ASIDE / 6.0)
+    mouse.wait(0.4)
+    state = desk.state()
+    progress = state.replay
+
+    assert progress is not None
+    assert progress.among is not None
+    assert progress.among.cylinder is before
+    assert state.model.cylinder is not None
+    assert before is not None
+    gaps = np.linalg.norm(state.model.cylinder.directrix - before.directrix, axis=1)
+    assert gaps.max() > 0.005
+    assert desk.store.document is kept
