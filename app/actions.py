@@ -120,6 +120,10 @@ class Actions(Protocol):
         """End the replay where it is."""
         ...
 
+    def miss_hand(self) -> None:
+        """Say what can be pulled while it replays: somebody clicked beside it."""
+        ...
+
     def move_line(self, node: str, share: float, by: FloatArray) -> None:
         """Pull a line after a part (0 .. 1) of the way along it, by a displacement (3,) [m]."""
         ...

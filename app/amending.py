@@ -12,8 +12,9 @@ from app.actions import Drag
 from app.document import Document, FloatArray, View
 from app.linepull import LinePull
 from app.model import Model
+from app.outlining import Outlining
 from app.proposal import DISCARDED, FIRST_ANSWER, LOST, Choice, Pending, Proposal
-from app.replaying import Corrected, Replaying
+from app.replaying import Replaying
 from app.stage import Stage
 from app.store import Progress, Store
 from app.subject import subject_of
@@ -43,7 +44,7 @@ class Amending:
         self._replay: Replaying | None = None
         self._pending: Pending | None = None
         self._aside: Pending | None = None
-        self._corrected: tuple[Corrected | None, Document | None] = None, None
+        self._outlining: Outlining | None = None
         self._contradicting: frozenset[tuple[str, ...]] = frozenset()
 
     @property
@@ -63,8 +64,11 @@ class Amending:
 
     @property
     def progress(self) -> Progress | None:
-        """How far the replay is."""
-        return None if self._replay is None else self._replay.progress()
+        """How far the replay is, and what it would change so far."""
+        if self._replay is None or self._outlining is None:
+            return None
+        outlook = self._outlining.of(self._replay.so_far())
+        return replace(self._replay.progress(), outline=outlook.cylinder, effect=outlook.effect)
 
     @property
     def undo_name(self) -> str | None:
@@ -78,11 +82,6 @@ class Amending:
 
     def shown(self, document: Document) -> Document:
         """Give the document as the previewed choice would make it."""
-        made = None if self._replay is None else self._replay.so_far()
-        if self._replay is not None and made is not None:
-            if made is not self._corrected[0]:
-                self._corrected = made, _applied(self._replay, made, document)
-            return self._corrected[1] or document
         return document if self._pending is None else self._pending.shown(document)
 
     # --- a replay ----------------------------------------------------------------------
@@ -97,16 +96,21 @@ class Amending:
         self._stage.pause()
         feel, speed = _FEELS[view.replay_feel], view.replay_speed
         self._replay = Replaying(self._stage.arm, subject, self._stage.hand, now, feel=feel, speed=speed)
+        self._outlining = Outlining(subject)
         return PULL_IT, False
 
     def drag(self, drag: Drag) -> Said | None:
         """Pull the hand of the replay; nothing else can be pulled while it runs."""
         replay = self._replay
         if replay is None or drag.node != "/hand":
-            return (ONLY_THE_HAND, True) if drag.phase == "start" else None
+            return self.missed() if drag.phase == "start" else None
         replay.follow(drag)
         self._stage.driver.pulled(replay.hand)
         return (PULL_IT, False) if drag.phase == "start" else None
+
+    def missed(self) -> Said | None:
+        """Say what can be pulled while it replays, to somebody who does not hold it."""
+        return None if self._replay is None or self._replay.held else (ONLY_THE_HAND, True)
 
     def tick(self, now: float) -> bool:
         """Replay on; returns whether it is at its end."""
@@ -119,7 +123,7 @@ class Amending:
 
     def end(self, now: float) -> Said | None:
         """End the replay, if one runs, and offer what was corrected."""
-        replay, self._replay, self._corrected = self._replay, None, (None, None)
+        replay, self._replay, self._outlining = self._replay, None, None
         if replay is None:
             return None
         corrected = replay.finish(now)
@@ -252,11 +256,3 @@ class Amending:
         kept = self._store.edit(chosen.apply, chosen.name, now=now)  # if it fails, it waits on
         self._pending = None
         return ("", False) if kept else (LOST, True)
-
-
-def _applied(replay: Replaying, made: Corrected, document: Document) -> Document:
-    """Give a document with what a replay that goes on has corrected so far."""
-    try:
-        return correcting.proposed(replay.subject, made).choices[0].apply(document)
-    except GcError:  # said when it is offered
-        return document

@@ -83,7 +83,7 @@ class Desk:
         if self._held is not None:
             document = self._held.shown(document)
         if self.model.source is not document:
-            self.model = learn(document, self.model, coarse=self._held is not None or self.amending.replays)
+            self.model = learn(document, self.model, coarse=self._held is not None)
             self._set_stage()
         self.amend(lambda a: a.contradicting(self.model))
         return document

@@ -33,7 +33,9 @@ LONGEST: Final = 300.0
 SETTLING: Final = 1.5
 """A replay that is stopped is continued this long at most, to see how the hand eases back [s]."""
 EASING: Final = 0.5
-"""While the hand is held it is shown as if it eased back in about this time [s]."""
+"""What a hand that is held would do if it were let go: it would ease back in about this time [s]."""
+GUESSED: Final = 10
+"""... is found out anew after so many ticks."""
 BACK: Final = 0.001
 """A hand this near to its path is back on it [m]."""
 SLIP: Final = 0.001
@@ -194,17 +196,17 @@ class Replaying:
             time=along - float(path.times[0]),
             duration=float(path.times[-1] - path.times[0]),
             held=self.held,
-            among=self.subject.among,
         )
 
     def so_far(self) -> Corrected | None:
         """Give what would be recorded if the hand were let go now; None before the first pull.
 
-        It is the same object until the held hand has moved on.
+        It is the same object for `GUESSED` ticks, and while nobody holds the hand.
         """
         pulled = self._track is not None and bool(self._parts) and bool(self._parts[-1].pulled.any())
-        if not pulled or self._so_far[0] == self._replay.tick:
-            return self._so_far[1]
+        known, made = self._so_far
+        if not pulled or (made is not None and self._replay.tick < known + GUESSED):
+            return made
         made = self._recorded(float(self._route.times[-1]))
         gone = (made.times - self._replay.along) / (EASING * self._replay.speed)
         fade = np.where(gone > 0.0, np.clip(1.0 - gone, 0.0, 1.0) ** 2, 0.0)

@@ -103,6 +103,10 @@ class Seat:
         """See `Actions.stop_replay`."""
         self._post(lambda desk, now: desk.amend(lambda a: a.end(now)))
 
+    def miss_hand(self) -> None:
+        """See `Actions.miss_hand`."""
+        self._post(lambda desk, _: desk.amend(lambda a: a.missed()))
+
     def move_line(self, node: str, share: float, by: FloatArray) -> None:
         """See `Actions.move_line`."""
         self._post(lambda desk, now: desk.leading.move_line(node, share, by, now))

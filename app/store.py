@@ -25,7 +25,7 @@ from app.proposal import Correction, Proposal
 from app.quality import Postures
 from app.shapes import Shapes
 from app.trial import Trial
-from gc_core import Reproduction
+from gc_core import GeneralizedCylinder, Reproduction
 
 MERGE_WITHIN: Final = 1.0
 """Edits of one key closer together than this are one undo step [s]."""
@@ -141,8 +141,10 @@ class Progress:
     """[s]."""
     held: bool
     """Whether the hand is held."""
-    among: Model | None = None
-    """What was shown before."""
+    outline: GeneralizedCylinder | None = None
+    """The tube that would be learned if the hand were let go now; None while it stays as it is."""
+    effect: str = ""
+    """How many of the shown runs would change, and by how much: a part of a sentence."""
 
 
 @dataclass(frozen=True, eq=False)

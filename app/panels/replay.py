@@ -67,7 +67,8 @@ def how_far(replay: Progress) -> str:
     if not len(replay.done):
         return f"The arm goes to where {replay.name} begins …"
     held = " You hold the hand." if replay.held else ""
-    return f"{replay.name}: {words.seconds(replay.time)} of {words.seconds(replay.duration)}.{held}"
+    effect = f" {replay.effect[0].upper()}{replay.effect[1:]}." if replay.effect else ""
+    return f"{replay.name}: {words.seconds(replay.time)} of {words.seconds(replay.duration)}.{held}{effect}"
 
 
 def _speed(gui: viser.GuiApi, actions: Actions) -> Binding[str]:

@@ -122,7 +122,7 @@ class Directrix:
         direction = checked_point(event.ray_direction)
         if state is None or state.model.cylinder is None or origin is None or direction is None:
             return
-        if not np.any(direction):
+        if state.replay is not None or not np.any(direction):  # a replay has no playhead to move
             return
         station = nearest_to_ray(state.model.cylinder.directrix, origin, direction, 2.0 * CLICK_RADIUS)
         time = time_of(state.model, state.playback.run, station)

@@ -35,9 +35,10 @@ class Placing:
             return
         self._listens = wanted
         scene: Any = self._api  # its hints know neither coroutines nor what a callback is
-        scene.remove_click_callback("all")
         if wanted:
             scene.on_click()(self._on_click)
+        else:
+            scene.remove_click_callback(self._on_click)
 
     async def _on_click(self, event: viser.SceneClickEvent) -> None:
         state, origin = self._state, checked_point(event.ray_origin)

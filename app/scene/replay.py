@@ -105,8 +105,10 @@ def corrected(state: State) -> tuple[FloatArray | None, FloatArray]:
 
 def outlined(state: State) -> GeneralizedCylinder | None:
     """Give the tube that a correction would make, where it is another one than before."""
-    correction = state.correction or state.proposal or state.replay
-    before = None if correction is None else correction.among
-    if before is None or not state.view.show_tube or state.model.cylinder is before.cylinder:
+    if not state.view.show_tube:
         return None
-    return state.model.cylinder
+    if state.replay is not None:
+        return state.replay.outline
+    correction = state.correction or state.proposal
+    same = correction is None or state.model.cylinder is correction.among.cylinder
+    return None if same else state.model.cylinder

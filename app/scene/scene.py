@@ -16,6 +16,7 @@ from app.scene.drop import DropLine
 from app.scene.hand import HandBall, Recording, Shortage
 from app.scene.hatching import Hatching
 from app.scene.landmarks import Landmarks
+from app.scene.missing import Missing
 from app.scene.placing import Placing
 from app.scene.pulls import checked_point
 from app.scene.replay import Replay
@@ -79,6 +80,7 @@ class Scene:
             DropLine(api),
             ToolRings(api, actions),
             Placing(api, actions),
+            Missing(api, actions),
         )
 
     def draw(self, state: State) -> None:

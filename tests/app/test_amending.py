@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.spatial import distance  # pyright: ignore[reportMissingTypeStubs]  # SciPy has none
 
 from app import correcting
 from app.actions import Drag, Phase
@@ -14,7 +15,7 @@ from app.desk import Desk
 from app.document import FloatArray
 from app.proposal import DISCARDED, FIRST_ANSWER, Proposal
 from app.replaying import Corrected, Subject
-from app.store import State
+from app.store import Progress, State
 from app.turning import orientation_of
 from tests.app.makers import TICK, Mouse
 
@@ -323,23 +324,53 @@ def test_after_a_replay_the_playhead_is_at_the_beginning_and_the_hand_stays(desk
     np.testing.assert_array_equal(desk.state().hand.position, hand)
 
 
-def test_the_tube_of_the_correction_is_seen_while_the_hand_is_held_and_nothing_is_kept(
-    desk: Desk, mouse: Mouse
-) -> None:
-    before, kept = desk.state().model.cylinder, desk.store.document
-    replay(desk, mouse)
+def held_aside(desk: Desk, mouse: Mouse, node: str) -> Progress:
+    """Pull the hand of a replay aside and hold it."""
+    replay(desk, mouse, node)
     mouse.press("/hand")
     for _ in range(6):
         mouse.move(ASIDE / 6.0)
     mouse.wait(0.4)
-    state = desk.state()
-    progress = state.replay
-
+    progress = desk.state().replay
     assert progress is not None
-    assert progress.among is not None
-    assert progress.among.cylinder is before
-    assert state.model.cylinder is not None
+    return progress
+
+
+def test_the_tube_that_is_outlined_while_the_hand_is_held_is_the_one_that_is_learned(
+    desk: Desk, mouse: Mouse
+) -> None:
+    before, kept = desk.state().model.cylinder, desk.store.document
+    progress = held_aside(desk, mouse, "/demonstrations/0")
+    while_held = desk.state().model.cylinder, desk.store.document
+    desk.amend(lambda amending: amending.end(mouse.now))
+    learned = desk.state().model.cylinder
+
+    assert while_held == (before, kept)
+    assert progress.effect.startswith("1 of 1 run changes, by up to")
+    outline = progress.outline
     assert before is not None
-    gaps = np.linalg.norm(state.model.cylinder.directrix - before.directrix, axis=1)
-    assert gaps.max() > 0.005
-    assert desk.store.document is kept
+    assert outline is not None
+    assert learned is not None
+    moved = distance.directed_hausdorff(learned.directrix, before.directrix)[0]
+    assert distance.directed_hausdorff(outline.directrix, learned.directrix)[0] < 0.2 * moved
+
+
+def test_while_the_hand_is_held_in_a_replay_of_a_run_the_tube_stays_and_the_rule_moves_the_run(
+    desk: Desk, mouse: Mouse
+) -> None:
+    progress = held_aside(desk, mouse, "/reproductions/0")
+
+    assert progress.outline is None
+    assert progress.effect.startswith("1 of 1 run changes, by up to")
+
+
+def test_a_click_beside_the_hand_of_a_replay_says_to_take_the_hand_itself(desk: Desk, mouse: Mouse) -> None:
+    replay(desk, mouse)
+    desk.amend(lambda amending: amending.missed())
+    during = desk.state()
+    mouse.wait(6.0)
+    desk.say("")
+    desk.amend(lambda amending: amending.missed())
+
+    assert (during.message, during.replay is None) == (ONLY_THE_HAND, False)
+    assert desk.state().message == ""

@@ -31,6 +31,8 @@ SPEED = 0.25
 LINE, RUN = "/demonstrations/0/line", "/reproductions/0/line"
 RIGHT = 745.0
 """The hand comes from beside the panel: it is pulled when it is this far to the left [px]."""
+BESIDE = (700.0, 80.0)
+"""Where there is nothing but the sky [px]."""
 HELD = "You hold the hand."
 MOST_EVENTS = 20.0
 """viser's page sends no more in a second."""
@@ -93,10 +95,13 @@ def test_a_hand_pulled_aside_during_a_replay_yields_as_the_stiffness_says_and_is
         tab.page.mouse.move(x + by[0], y + by[1] + next(trembling))
         moves += 1
     seconds = time.perf_counter() - began
+    tab.wait_until(lambda: tab.shows("changes, by up to") and tab.visible("/replay/outline"))
     tab.page.mouse.move(x + by[0], y + by[1])
     tab.release()
     tab.wait_until(lambda: not tab.shows(HELD))
     events = len(arrived) - before_moves
+    tab.click(BESIDE)
+    tab.wait_until(lambda: tab.shows("Take the hand itself"))
     tab.page.wait_for_timeout(1500)
     person.press_exactly("Stop")
     tab.wait_until(lambda: tab.shows("Correction of"))

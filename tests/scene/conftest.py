@@ -83,6 +83,7 @@ class Recorder:
         self.sought: list[float] = []
         self.edits: list[Callable[[Document], Document]] = []
         self.looks: list[dict[str, Any]] = []
+        self.misses = 0
         self._news = threading.Condition()
 
     def drag(self, drag: Drag) -> None:
@@ -105,15 +106,22 @@ class Recorder:
             self.looks.append(changes)
             self._news.notify_all()
 
-    def wait(self, *, drags: int = 0, seeks: int = 0, edits: int = 0, looks: int = 0) -> None:
+    def miss_hand(self) -> None:
+        with self._news:
+            self.misses += 1
+            self._news.notify_all()
+
+    def wait(
+        self, *, drags: int = 0, seeks: int = 0, edits: int = 0, looks: int = 0, misses: int = 0
+    ) -> None:
         """Wait until so many have arrived."""
-        wanted = (drags, seeks, edits, looks)
+        wanted = (drags, seeks, edits, looks, misses)
         with self._news:
             arrived = self._news.wait_for(lambda: all(map(ge, self._counts(), wanted)), timeout=10.0)
-        assert arrived, f"{self._counts()} drags, seeks, edits and looks"
+        assert arrived, f"{self._counts()} drags, seeks, edits, looks and misses"
 
     def _counts(self) -> tuple[int, ...]:
-        return len(self.drags), len(self.sought), len(self.edits), len(self.looks)
+        return len(self.drags), len(self.sought), len(self.edits), len(self.looks), self.misses
 
 
 @dataclass

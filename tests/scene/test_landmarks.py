@@ -16,7 +16,7 @@ from app.placing import HALF_AN_OBJECT
 from app.scene.bodies import ball, box, post
 from app.scene.placing import NEAR, aimed_at
 from app.scene.pulls import levelled
-from app.store import State
+from app.store import Progress, State
 from tests.scene.conftest import Stage, document, state
 from tests.scene.test_geometry import volume
 
@@ -155,6 +155,19 @@ def test_clicks_are_heard_only_while_a_landmark_waits_for_its_place(stage: Stage
     stage.draw(state())
 
     assert (before, during, stage.client.hears_clicks) == (False, True, False)
+
+
+def test_a_click_beside_the_hand_of_a_replay_is_told_and_moves_no_playhead(stage: Stage) -> None:
+    path = state().model.cylinder.directrix
+    progress = Progress("Reach 1", path, path[:10], 0.5, 4.0, held=False)
+    stage.draw(replace(state(), replay=progress))
+    stage.client.click("/directrix/pick", at=path[100])
+    stage.client.click_scene(path[100])
+    stage.actions.wait(misses=1)
+    stage.draw(state())
+
+    assert not stage.actions.sought
+    assert not stage.client.hears_clicks
 
 
 @settings(deadline=None)  # the first example learns the skill
