@@ -202,6 +202,29 @@ class Rows(Generic[R]):
         return self._rows[:count]
 
 
+def place_of(item: T, index: int, items: Sequence[T], same: Callable[[T, T], bool]) -> int | None:
+    """Find where the item of a row is by now.
+
+    Parameters
+    ----------
+    item
+        As the row shows it; it may be renamed since, for instance by the letter that was typed before.
+    index : int
+        Of the row.
+    items : sequence
+        What there is now.
+    same : callable
+        Whether two of them are one and the same, whatever they are called.
+
+    Returns
+    -------
+    int or None
+        Preferably the very item, then one in the row's own place; None: it is not there any more.
+    """
+    alike = [place for place, one in enumerate(items) if one is item or same(one, item)]
+    return min(alike, key=lambda place: (items[place] is not item, place != index), default=None)
+
+
 def anything(_: object) -> bool:
     """Accept every value: viser has made a boolean of it."""
     return True

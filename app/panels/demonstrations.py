@@ -3,12 +3,24 @@
 from collections.abc import Callable
 from functools import partial
 
+import numpy as np
 import viser
 
 from app import advising, edits
 from app.actions import Actions
 from app.advising import FAULT_WORDS, Noted
-from app.binding import QUIET, Binding, Changed, Rows, anything, assign, name_field, on_choice, on_press
+from app.binding import (
+    QUIET,
+    Binding,
+    Changed,
+    Rows,
+    anything,
+    assign,
+    name_field,
+    on_choice,
+    on_press,
+    place_of,
+)
 from app.document import Document, Shown
 from app.history import DELETE as DELETE_STEP
 from app.panels import words
@@ -106,8 +118,10 @@ class DemonstrationRow:
         )
 
         def write(used: bool) -> None:
-            change = partial(edits.mute_demonstration, index=self._index, muted=not used)
-            self._actions.edit(change, f"unmute {self._title}" if used else f"mute {self._title}")
+            self._edit(
+                partial(edits.mute_demonstration, muted=not used),
+                f"unmute {self._title}" if used else f"mute {self._title}",
+            )
 
         return Binding(
             widget,
@@ -118,8 +132,8 @@ class DemonstrationRow:
 
     def _add_name(self, gui: viser.GuiApi) -> Binding[str]:
         def write(name: str) -> None:
-            change = partial(edits.rename_demonstration, index=self._index, name=name)
-            self._actions.edit(change, "rename a demonstration", f"rename demonstration {self._index}")
+            rename = partial(edits.rename_demonstration, name=name)
+            self._edit(rename, "rename a demonstration", f"rename demonstration {self._index}")
 
         return name_field(
             gui, "Name", lambda state: state.document.demonstrations[self._index].demonstration.name, write
@@ -139,8 +153,11 @@ class DemonstrationRow:
         start, stop = self._keep
         # The slider's end is rounded: the last sample must not fall off when only the beginning is cut.
         stop = float("inf") if stop >= self._duration else stop
-        change = partial(edits.trim_demonstration, index=self._index, start=start, stop=stop)
-        self._actions.edit(change, f"trim {self._title}")
+        self._edit(partial(edits.trim_demonstration, start=start, stop=stop), f"trim {self._title}")
+
+    def _edit(self, change: Callable[[Document, int], Document], name: str, key: str | None = None) -> None:
+        if (shown := self._shown) is not None:
+            self._actions.edit(partial(_wherever, shown, self._index, change), name, key)
 
     def _copy(self) -> None:
         self._actions.edit(
@@ -153,8 +170,21 @@ class DemonstrationRow:
         )
 
 
+def _wherever(
+    shown: Shown, index: int, change: Callable[[Document, int], Document], document: Document
+) -> Document:
+    """Change the demonstration that was shown, wherever it is by now and whatever it is called."""
+    place = place_of(shown, index, document.demonstrations, _same)
+    return document if place is None else change(document, place)
+
+
+def _same(one: Shown, other: Shown) -> bool:
+    first, second = one.demonstration, other.demonstration
+    return np.array_equal(first.times, second.times) and np.array_equal(first.positions, second.positions)
+
+
 def _at(shown: Shown | None, change: Callable[[Document, int], Document], document: Document) -> Document:
-    """Change the demonstration that was shown, wherever it is by now."""
+    """Change the very demonstration that was shown, wherever it is by now, and none like it."""
     for index, candidate in enumerate(document.demonstrations):
         if candidate is shown:
             return change(document, index)

@@ -10,7 +10,7 @@ import viser
 from app import bending, edits
 from app.actions import Actions
 from app.anchors import Anchor
-from app.binding import QUIET, Binding, Changed, Rows, assign, name_field, on_choice, on_press
+from app.binding import QUIET, Binding, Changed, Rows, assign, name_field, on_choice, on_press, place_of
 from app.document import Document, FloatArray, Place
 from app.panels import words
 from app.panels.position_field import PositionField
@@ -95,8 +95,9 @@ class LandmarkRow:
 
     def _add_name(self, gui: viser.GuiApi) -> Binding[str]:
         def write(name: str) -> None:
-            change = partial(edits.rename_landmark, index=self._index, name=name)
-            self._actions.edit(change, "rename a landmark", f"rename landmark {self._index}")
+            if (place := self._place) is not None:
+                change = partial(_renamed, place, self._index, name)
+                self._actions.edit(change, "rename a landmark", f"rename landmark {self._index}")
 
         return name_field(gui, "Called", lambda state: state.document.landmarks[self._index].name, write)
 
@@ -127,3 +128,14 @@ class LandmarkRow:
             self._actions.edit(partial(edits.put_landmark_back, name=name), f"put {name} back")
         else:
             self._actions.edit(partial(edits.remove_landmark, name=name), f"remove {name}")
+
+
+def _renamed(place: Place, index: int, name: str, document: Document) -> Document:
+    """Rename the landmark that was shown, wherever it is in the list by now."""
+    at = place_of(place, index, document.landmarks, _same)
+    return document if at is None else edits.rename_landmark(document, at, name)
+
+
+def _same(one: Place, other: Place) -> bool:
+    places = one.taught is other.taught and one.now is other.now and one.turn is other.turn
+    return one.kind == other.kind and places

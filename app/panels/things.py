@@ -1,6 +1,7 @@
 """Move: what is in the way of the arm, and what it can push and carry."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import partial
 from typing import Any, Final
 
@@ -9,7 +10,7 @@ import viser
 
 from app import edits, measures, placing
 from app.actions import Actions
-from app.binding import Binding, Changed, Rows, assign, name_field, on_choice
+from app.binding import Binding, Changed, Rows, assign, name_field, on_choice, place_of
 from app.document import THING_KINDS, Document, Shape, ThingKind, View
 from app.edits.things import HEAVIEST, LARGEST, SMALLEST
 from app.panels import words
@@ -131,8 +132,9 @@ class ThingRow:
 
     def _add_name(self, gui: viser.GuiApi) -> Binding[str]:
         def write(name: str) -> None:
-            change = partial(edits.rename_thing, index=self._index, name=name)
-            self._actions.edit(change, "rename a thing", f"rename thing {self._index}")
+            if (thing := self._thing) is not None:
+                change = partial(_renamed, thing, self._index, name)
+                self._actions.edit(change, "rename a thing", f"rename thing {self._index}")
 
         return name_field(gui, "Called", lambda state: state.document.things[self._index].name, write)
 
@@ -191,6 +193,16 @@ class ThingRow:
 def waits(view: View) -> ThingKind | None:
     """Say what kind of thing waits for its place."""
     return next((kind for kind in THING_KINDS if kind == view.placing), None)
+
+
+def _renamed(thing: Shape, index: int, name: str, document: Document) -> Document:
+    """Rename the thing that was shown, wherever it is in the list by now."""
+    at = place_of(thing, index, document.things, _same)
+    return document if at is None else edits.rename_thing(document, at, name)
+
+
+def _same(one: Shape, other: Shape) -> bool:
+    return replace(one, name=other.name) == other
 
 
 def _between(low: float, high: float, value: float) -> bool:

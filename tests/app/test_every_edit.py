@@ -48,7 +48,8 @@ LOOKING = {
     "choose_run", "close_export", "compare", "copy_skill", "copy_version", "decline_file", "delete_skill",
     "forget_skill", "hold_tool", "look", "miss_hand", "move_hand", "nudge_hand", "nudge_turn",
     "offer_file", "play", "play_trial", "prepare_export", "preview", "redo", "reposition", "restore_skill",
-    "see_from", "seek", "start_replay", "stop_replay", "take_export", "toggle_gripper", "try_physics", "turn_tool", "undo",
+    "see_from", "seek", "start_replay", "stop_replay", "take_export", "toggle_gripper", "try_physics",
+    "turn_tool", "undo",
 }  # fmt: skip
 """Actions that leave the document as it is, or are the way back itself."""
 

@@ -40,6 +40,15 @@ def test_a_landmark_is_renamed(bench: Bench) -> None:
     assert bench.edited(state.document).landmarks[0].name == "red ball"
 
 
+def test_what_is_typed_is_for_the_landmark_of_its_row_and_not_for_one_in_its_place(bench: Bench) -> None:
+    both = taught()
+    bench.draw(state_of(edits.remove_landmark(both, "start")))
+    bench.client.set_gui("Called", "red")
+    bench.client.set_gui("Called", "red ball")
+
+    assert [place.name for place in bench.edited(bench.edited(both)).landmarks] == ["start", "red ball"]
+
+
 def test_a_landmark_keeps_its_row_under_another_name(bench: Bench) -> None:
     state = bench.draw(state_of(furnished()))
     renamed = edits.rename_landmark(state.document, 2, "red cup")

@@ -11,12 +11,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app import edits
-from app.document import View
+from app.document import Document, Shown, View
 from app.panels.menu import distinct
 from app.shapes import shapes_of
 from app.store import Hand, Offer, Playback
 from gc_core import Constraint
-from tests.panels.desk import Bench, state_of, taught
+from tests.panels.desk import Bench, reach, state_of, taught
 
 
 def offered(summary: str) -> Offer:
@@ -147,6 +147,20 @@ def test_a_demonstration_is_muted_and_renamed(bench: Bench) -> None:
     renamed = bench.edited(muted)
 
     assert (renamed.demonstrations[0].muted, renamed.demonstrations[0].demonstration.name) == (True, "Slow")
+
+
+def test_what_is_typed_is_for_the_demonstration_of_its_row_and_not_for_one_in_its_place(bench: Bench) -> None:
+    (shown,) = bench.draw(state_of(taught(1))).document.demonstrations
+    bench.client.set_gui("Name", "Slo")
+    bench.client.set_gui("Name", "Slow")
+    bench.client.set_gui("Learn from it", False)
+    document = Document("Reaching", demonstrations=(other := Shown(reach(1)), shown))
+    for _ in range(3):
+        document = bench.edited(document)
+    first, last = document.demonstrations
+
+    assert first is other
+    assert (last.demonstration.name, last.muted) == ("Slow", True)
 
 
 def test_trim_keeps_the_chosen_part(bench: Bench) -> None:

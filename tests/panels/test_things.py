@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -91,3 +93,12 @@ def test_a_thing_is_removed(bench: Bench) -> None:
     bench.client.press("Remove box 1")
 
     assert [thing.name for thing in bench.edited(state.document).things] == ["ball 1"]
+
+
+def test_what_is_typed_is_for_the_thing_of_its_row_and_not_for_one_in_its_place(bench: Bench) -> None:
+    both = replace(furnished(), landmarks=())  # they are called by such fields, too
+    bench.draw(state_of(edits.remove_thing(both, "box 1")))
+    bench.client.set_gui("Called", "red")
+    bench.client.set_gui("Called", "red ball")
+
+    assert [thing.name for thing in bench.edited(bench.edited(both)).things] == ["box 1", "red ball"]
