@@ -1,6 +1,6 @@
 """A click that places a landmark or a thing: on the tube if it is meant, else on the table."""
 
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 import viser
@@ -9,6 +9,7 @@ from app import edits, placing
 from app.actions import Actions
 from app.document import THING_KINDS, Document, FloatArray, LandmarkKind, Place, ThingKind
 from app.model import Model
+from app.scene.clicks import Clicks
 from app.scene.polyline import nearest_to_ray
 from app.scene.pulls import checked_point
 from app.store import State
@@ -23,22 +24,13 @@ class Placing:
     """Listens for a click in the scene while a landmark or a thing waits for its place."""
 
     def __init__(self, api: viser.SceneApi, actions: Actions) -> None:
-        self._api, self._actions = api, actions
-        self._listens = False
+        self._clicks, self._actions = Clicks(api, self._on_click), actions
         self._state: State | None = None
 
     def draw(self, state: State) -> None:
         """Begin to listen, or stop."""
         self._state = state
-        wanted = state.view.placing is not None
-        if wanted == self._listens:
-            return
-        self._listens = wanted
-        scene: Any = self._api  # its hints know neither coroutines nor what a callback is
-        if wanted:
-            scene.on_click()(self._on_click)
-        else:
-            scene.remove_click_callback(self._on_click)
+        self._clicks.listen(state.view.placing is not None)
 
     async def _on_click(self, event: viser.SceneClickEvent) -> None:
         state, origin = self._state, checked_point(event.ray_origin)

@@ -9,6 +9,7 @@ from app.actions import Actions
 from app.arm.protocol import Arm
 from app.document import FloatArray
 from app.scene.arm import ArmFrames
+from app.scene.clicks import Missing
 from app.scene.compared import ComparedRuns
 from app.scene.cylinder import Directrix, FormerTube, Section, Tube
 from app.scene.demonstrations import Demonstrations
@@ -16,7 +17,6 @@ from app.scene.drop import DropLine
 from app.scene.hand import HandBall, Recording, Shortage
 from app.scene.hatching import Hatching
 from app.scene.landmarks import Landmarks
-from app.scene.missing import Missing
 from app.scene.placing import Placing
 from app.scene.pulls import checked_point
 from app.scene.replay import Replay
