@@ -13,10 +13,11 @@ from app.document import Document, FloatArray, View
 from app.linepull import LinePull
 from app.model import Model
 from app.outlining import Outlining
+from app.progress import Progress
 from app.proposal import DISCARDED, FIRST_ANSWER, LOST, Choice, Pending, Proposal
 from app.replaying import Replaying
 from app.stage import Stage
-from app.store import Progress, Store
+from app.store import Store
 from app.subject import subject_of
 from gc_core import GcError
 

@@ -17,9 +17,10 @@ from app.compliance import Feel, Replayed
 from app.document import FloatArray
 from app.driver import hand_at
 from app.gesture import Track
+from app.progress import Progress
 from app.route import Route
 from app.servo import Motion
-from app.store import Hand, Progress
+from app.store import Hand
 from app.subject import Subject
 from gc_core import Demonstration, Reproduction
 from gc_core.arrays import evenly

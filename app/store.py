@@ -21,11 +21,12 @@ from app.history import History, begin
 from app.library import Summary
 from app.model import Model
 from app.parcel import Parcel
+from app.progress import Progress
 from app.proposal import Correction, Proposal
 from app.quality import Postures
 from app.shapes import Shapes
 from app.trial import Trial
-from gc_core import GeneralizedCylinder, Reproduction
+from gc_core import Reproduction
 
 MERGE_WITHIN: Final = 1.0
 """Edits of one key closer together than this are one undo step [s]."""
@@ -123,28 +124,6 @@ class Playback:
     playing: bool = False
     run: int = 0
     """Which reproduction is played."""
-
-
-@dataclass(frozen=True, eq=False)
-class Progress:
-    """A replay that lets itself be corrected, as far as it is."""
-
-    name: str
-    """Of what is replayed."""
-    path: FloatArray
-    """(K, 3) what is replayed [m]."""
-    done: FloatArray
-    """(T, 3) where the hand has been so far [m]; T may be 0."""
-    time: float
-    """Of what is replayed [s]."""
-    duration: float
-    """[s]."""
-    held: bool
-    """Whether the hand is held."""
-    outline: GeneralizedCylinder | None = None
-    """The tube that would be learned if the hand were let go now; None while it stays as it is."""
-    effect: str = ""
-    """How many of the shown runs would change, and by how much: a part of a sentence."""
 
 
 @dataclass(frozen=True, eq=False)

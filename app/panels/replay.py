@@ -8,7 +8,8 @@ from app.actions import Actions
 from app.binding import QUIET, Binding, Changed, assign, on_press, one_of
 from app.document import Feel
 from app.panels import words
-from app.store import Progress, State
+from app.progress import Progress
+from app.store import State
 from app.subject import subjects
 
 HOW: Final = "The arm replays the motion slowly. Pull its hand where the motion should be otherwise."

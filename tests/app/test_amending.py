@@ -13,9 +13,10 @@ from app.compliance import MEDIUM
 from app.correcting import NOTHING
 from app.desk import Desk
 from app.document import FloatArray
+from app.progress import Progress
 from app.proposal import DISCARDED, FIRST_ANSWER, Proposal
 from app.replaying import Corrected, Subject
-from app.store import Progress, State
+from app.store import State
 from app.turning import orientation_of
 from tests.app.makers import TICK, Mouse
 

@@ -13,8 +13,9 @@ from app.model import learn
 from app.panels.line import place
 from app.panels.proposal import asked, effect
 from app.panels.replay import how_far
+from app.progress import Progress
 from app.proposal import Choice, Proposal
-from app.store import Progress, State
+from app.store import State
 from app.subject import subjects
 from app.trial import Trial
 from tests.panels.desk import Bench, state_of, taught

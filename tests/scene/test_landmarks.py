@@ -13,10 +13,11 @@ from app import edits
 from app.document import Document, FloatArray, Place
 from app.model import learn
 from app.placing import HALF_AN_OBJECT
+from app.progress import Progress
 from app.scene.bodies import ball, box, post
 from app.scene.placing import NEAR, aimed_at
 from app.scene.pulls import levelled
-from app.store import Progress, State
+from app.store import State
 from tests.scene.conftest import Stage, document, state
 from tests.scene.test_geometry import volume
 
