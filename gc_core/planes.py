@@ -20,7 +20,8 @@ FADE_LENGTH = 0.08
 or over as much as it recedes where that is more [m]."""
 
 MOST_SPREAD = 4.0
-"""... times how much faster the edge with an opposing plane goes, up to this (planes at 165 degrees) [-]."""
+"""Where an opposing plane pushes, over so many times that length as the edge of both goes faster than the
+plane, up to this (planes at 165 degrees) [-]."""
 
 _NEAREST = 1e-9
 """Least part of the way over which one of two ends gives way to the other [-]."""

@@ -61,7 +61,6 @@ STYLE: Final[dict[str, Any]] = {
     "lines.solid_joinstyle": "round",
     "svg.hashsalt": "gc-teach",
     "text.color": INK,
-    "text.parse_math": False,  # titles are typed by people, and dollars are dollars
     "xtick.color": INK,
     "ytick.color": INK,
 }
@@ -85,8 +84,8 @@ class Space:
         self.axes.plot(*np.atleast_2d(self.on_paper(points)).T, *marks, **look)
 
     def title(self, words: str) -> None:
-        """Write above."""
-        self.axes.set_title(words)
+        """Write above what a person may have typed: dollars are dollars, not formulas."""
+        self.axes.set_title(words, parse_math=False)
 
     def text(self, place: FloatArray, words: str, **look: Any) -> None:
         """Write beside a place (3,) [m]."""

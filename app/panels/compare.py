@@ -34,7 +34,7 @@ STARTS: Final[Mapping[str, int]] = {
 AGAIN: Final = "Compare again"
 OUTDATED: Final = "This is of the skill as it was: it has changed since. Its runs are not drawn any more."
 AS_TAUGHT: Final = (
-    "Landmarks were moved, or rules made: compared is the motion where it was taught, without rules."
+    "What is compared is the motion as it was taught: before landmarks were moved, and without rules."
 )
 
 

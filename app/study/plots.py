@@ -29,7 +29,6 @@ STYLE: Final = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.titlesize": 9.0,
-    "text.parse_math": False,  # names of files, in which dollars are dollars
 }
 
 
@@ -64,7 +63,7 @@ def small_multiples(measure: Measure, lines: Sequence[Line], name: str) -> str:
             _draw(
                 frame, measure, [line for line in lines if line.part.data_set == data_set], labels, alignments
             )
-            frame.set_title(data_set)
+            frame.set_title(data_set, parse_math=False)
         for empty in frames[len(sets) :]:
             empty.set_visible(False)
         file = io.StringIO()

@@ -122,7 +122,7 @@ CHAPTERS: Final = (
                 "Start off",
                 "cm",
                 100.0,
-                "Distance of a run's begin from the moved start.",
+                "Distance of a run's beginning from the moved start.",
                 drawn=False,
             ),
             Measure("end_error_m", "End off", "cm", 100.0, "Distance of a run's end from the moved goal."),

@@ -247,6 +247,7 @@ def test_the_command_says_one_json_value_and_writes_a_page_that_needs_no_network
     assert [said[key] for key in ("rows", "failed", "parts", "skipped")] == [9, 3, 3, 0]
     assert "No &lt;net&gt;" in page
     assert "<b>" not in page
+    assert ">$" not in page.replace(">$&lt;b", "")  # powers of ten are written as such
     assert page.count("$&lt;b&gt;\\q$") == 3 + 5  # in tables, and above each drawing
     assert "gmr-150 cannot learn these demonstrations" in page
     assert page.count("<svg") == 5
