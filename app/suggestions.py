@@ -109,7 +109,7 @@ def _suggested(
         "flat": "All demonstrations lie side by side, as on a sheet.",
         "gap": "Nobody has shown this side yet.",
     }[reason]
-    sentence = f"{begin} Show one that passes here, {where}, {_along(part)}."
+    sentence = f"{begin} Show one through the red disc, {where}, {_along(part)}."
     return Suggestion(station, direction, cylinder.directrix[station] + away * direction, reason, sentence)
 
 

@@ -21,6 +21,8 @@ PULSE: Final = 0.25
 BEAT: Final = 1.25
 """... once in this time [s]."""
 WORDS: Final = "show one here"
+ABOVE: Final = np.array([0.0, 0.0, 1.5 * RADIUS])
+"""From the disc to its words, which would cover half of it [m]."""
 
 
 class SuggestionDisc:
@@ -54,7 +56,7 @@ class SuggestionDisc:
             return
         handle = self._disc.show(*disc(model.cylinder.frames[suggestion.station, :, 0]))
         handle.position = suggestion.place
-        self._label.show(np.zeros(3), WORDS)
+        self._label.show(ABOVE, WORDS)
 
     def _pulse(self, time: float) -> None:
         size = round(1.0 + PULSE * float(np.sin(2.0 * np.pi * time / BEAT)), 2)

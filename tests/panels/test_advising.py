@@ -181,9 +181,9 @@ def test_suggestions_can_be_switched_off(bench: Bench) -> None:
     state = bench.draw(state_of(reaching(2)))
     bench.client.set_gui("Suggest what to do next", False)
     call = bench.notes.next()
-    shown = "Show one that passes here" in bench.client.text()
+    shown = "Show one through the red disc" in bench.client.text()
     bench.draw(replace(state, view=replace(state.view, suggest=False)))
 
     assert call == ("look", (("suggest", False),))
     assert shown
-    assert "Show one that passes here" not in bench.client.text()
+    assert "Show one through the red disc" not in bench.client.text()
