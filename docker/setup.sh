@@ -80,20 +80,26 @@ make_environment() {
 }
 
 install_locked() {
-    local lock=requirements.lock
+    local lock=requirements.lock wheels=.venv/compiled built
     [ "$purpose" = test ] && lock=requirements-dev.lock
+    rm -rf "$wheels"
+    # It takes as long to compile one package as to install all others.
+    compile_into "$wheels" &
+    built=$!
     say "installing what $lock names"
     pip_install --require-hashes --no-deps -r "$lock"
     pip_install --no-deps --no-build-isolation --editable .
-    install_compiled --require-hashes --no-deps -r requirements-compiled.lock
+    if wait "$built"; then pip_install --no-deps --no-index "$wheels"/*.whl; else say_not_compiled; fi
 }
 
 # Methods to compare with: without a compiler all else works, and they say what is missing.
-install_compiled() {
-    if can_compile; then
-        say "compiling movement_primitives, to compare with"
-        pip_install "$@" && return
-    fi
+compile_into() {
+    can_compile || return
+    say "compiling movement_primitives, to compare with"
+    quiet_pip wheel --require-hashes --no-deps -r requirements-compiled.lock --wheel-dir "$1"
+}
+
+say_not_compiled() {
     say "without DMP and ProMP to compare with: movement_primitives needs a C compiler and Python's headers."
 }
 
@@ -108,12 +114,12 @@ install_unlocked() {
     say "this is Python $version on $(uname -m): without the lock file, and without physics (pybullet), which" \
         "needs Python 3.11 on x86_64."
     pip_install --editable ".$extra"
-    install_compiled --editable '.[compare]'
+    { can_compile && pip_install --editable '.[compare]'; } || say_not_compiled
 }
 
-pip_install() {
-    .venv/bin/python -m pip install -qq --disable-pip-version-check --root-user-action ignore "$@"
-}
+pip_install() { quiet_pip install --root-user-action ignore "$@"; }
+
+quiet_pip() { .venv/bin/python -m pip "$1" -qq --disable-pip-version-check "${@:2}"; }
 
 install_packages
 python=$(find_python) || fail "needs Python 3.11 (or 3.12 to 3.14) and found none; please install one."
