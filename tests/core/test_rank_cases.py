@@ -172,7 +172,7 @@ def test_the_map_does_not_jump_while_a_landmark_moves(
         return np.linalg.norm(at(step[1]) - at(step[0]), axis=1).max()
 
     steps = list(pairwise(np.linspace(low, high, 401).tolist()))
-    allowed = 0.2 * max(map(change, steps))
+    allowed = 0.15 * max(map(change, steps))
     for _ in range(HALVINGS):
         middles = [(a, 0.5 * (a + b), b) for a, b in steps if change((a, b)) > allowed]
         steps = [half for a, middle, b in middles for half in ((a, middle), (middle, b))]
