@@ -26,8 +26,8 @@ ALPHA = DATA / "tlgc" / "alpha.mat"
 
 @pytest.fixture(scope="module")
 def campaign(jaco: Jaco) -> list[Drag]:
-    """150 random drags at 0.3 to 2.5 m/s, half of them to any place up to 2.5 m away."""
-    return drags(jaco, SEED, 150)
+    """100 random drags at 0.3 to 2.5 m/s, half of them to any place up to 2.5 m away."""
+    return drags(jaco, SEED, 100)
 
 
 def check_drags(jaco: Jaco, found: list[Drag]) -> None:
@@ -69,7 +69,7 @@ def test_every_place_within_reach_is_reached(campaign: list[Drag]) -> None:
 
 
 def test_every_hand_that_is_not_there_has_an_honest_reason(jaco: Jaco, campaign: list[Drag]) -> None:
-    assert sum(each.distance > HERE for each in campaign) > 30
+    assert sum(each.distance > HERE for each in campaign) > 20
     for each in campaign:
         check_reason(jaco, each)
 
