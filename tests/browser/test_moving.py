@@ -9,7 +9,6 @@ import pytest
 
 from app.document import FloatArray
 from app.scene.view import VIEWS
-from tests.browser.conftest import Visit
 from tests.browser.person import Person
 from tests.support.chromium import Pixel
 
@@ -41,8 +40,8 @@ def ends(person: Person) -> dict[str, FloatArray]:
     }
 
 
-def test_the_goal_takes_the_ends_of_tube_run_and_arm_with_it_and_undo_brings_them_back(visit: Visit) -> None:
-    tab = (person := visit()).tab
+def test_the_goal_takes_the_ends_of_tube_run_and_arm_with_it_and_undo_brings_them_back(guest: Person) -> None:
+    tab = (person := guest).tab
     person.pause()
     before, goal = person.work(), tab.position(GOAL)
     at_first = ends(person)
@@ -71,8 +70,8 @@ def test_the_goal_takes_the_ends_of_tube_run_and_arm_with_it_and_undo_brings_the
     np.testing.assert_allclose(tab.position(HAND), at_first["hand"], atol=THERE)
 
 
-def test_a_way_point_is_clicked_on_the_tube_pulled_and_put_back(visit: Visit) -> None:
-    tab = (person := visit()).tab
+def test_a_way_point_is_clicked_on_the_tube_pulled_and_put_back(guest: Person) -> None:
+    tab = (person := guest).tab
     person.pause()
     person.open_tab("Move")
     before = person.work()
@@ -96,10 +95,13 @@ def test_a_way_point_is_clicked_on_the_tube_pulled_and_put_back(visit: Visit) ->
     assert np.linalg.norm(moved[GOAL][0] - before[GOAL][0]) == 0.0
     person.press_exactly("Put all back")
     person.wait_for_work(added)
+    for _ in ("put back", "pulled", "added"):
+        person.undo()
+    person.wait_for_work(before)
 
 
-def test_an_object_is_turned_by_its_fields_and_by_its_knob_and_removed(visit: Visit) -> None:
-    tab = (person := visit()).tab
+def test_an_object_is_turned_by_its_fields_and_by_its_knob_and_removed(guest: Person) -> None:
+    tab = (person := guest).tab
     person.pause()
     person.open_tab("Move")
     before = person.work()

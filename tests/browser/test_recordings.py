@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.browser.conftest import Visit
 from tests.browser.person import Person
 
 pytestmark = pytest.mark.browser
@@ -35,8 +34,8 @@ def choose(person: Person, file: Path) -> None:
     chooser.value.set_files(str(file))
 
 
-def test_a_recording_is_shown_with_its_units_before_it_is_accepted(visit: Visit, tmp_path: Path) -> None:
-    tab = (person := visit()).tab
+def test_a_recording_is_shown_with_its_units_before_it_is_accepted(guest: Person, tmp_path: Path) -> None:
+    tab = (person := guest).tab
     person.pause()
     before = person.work()
     file, points = recording(tmp_path / "wave.csv")
@@ -52,13 +51,15 @@ def test_a_recording_is_shown_with_its_units_before_it_is_accepted(visit: Visit,
     tab.wait_drawn()
     np.testing.assert_allclose(person.line("/demonstrations/0/line")[[0, -1]], points[[0, -1]], atol=1e-4)
     assert {"/tube", "/reproductions/0/line"} <= set(person.work())
+    person.undo()
+    person.wait_for_work(before)
 
 
 NEW = {"/demonstrations/0/line", "/demonstrations/1/line"}
 
 
-def test_a_file_that_is_no_recording_gets_a_sentence(visit: Visit, tmp_path: Path) -> None:
-    tab = (person := visit()).tab
+def test_a_file_that_is_no_recording_gets_a_sentence(guest: Person, tmp_path: Path) -> None:
+    tab = (person := guest).tab
     person.pause()
     before = person.work()
     file = tmp_path / "notes.txt"

@@ -59,15 +59,10 @@ def type_hand(person: Person, *coordinates: float) -> None:
         person.tab.wait_until(lambda a=axis, w=wanted: abs(person.tab.position(HAND)[a] - w) < 0.002)
 
 
-def test_teach_your_own_is_an_empty_table_with_a_ball(visit: Visit) -> None:
-    person = empty_table(visit)
-
+def test_three_demonstrations_on_an_empty_table_lead_to_the_ball(visit: Visit) -> None:
+    tab = (person := empty_table(visit)).tab
     assert set(person.work()) == {GOAL}
     assert "My skill" in person.fields()
-
-
-def test_three_demonstrations_from_three_places_lead_to_the_ball(visit: Visit) -> None:
-    tab = (person := empty_table(visit)).tab
     goal = tab.position(GOAL)
     starts = [pull_the_hand_to_the_ball(person, 0)]
     assert goes_back_to(person, starts[0])

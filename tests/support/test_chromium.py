@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import queue
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 import pytest
 import viser
+from playwright.sync_api import Browser
 
 from tests.support.chromium import PROGRAMS, ViserPage, chromium_program, share
 
@@ -30,7 +31,7 @@ class Stage:
         return f"http://127.0.0.1:{self.server.get_port()}/"
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def stage() -> Iterator[Stage]:
     server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
     server.scene.configure_default_lights(True, cast_shadow=False)
@@ -51,6 +52,18 @@ def stage() -> Iterator[Stage]:
     server.stop()
 
 
+@pytest.fixture(scope="module")
+def page(stage: Stage, chromium: Browser) -> Iterator[ViserPage]:
+    """One tab for all: each test finds the ball where the one before let go of it."""
+    context = chromium.new_context(viewport={"width": 960, "height": 540})
+    tab = ViserPage(context.new_page())
+    tab.page.goto(stage.url)
+    tab.wait_drawn("/ball", "/triangle", "/line")
+    yield tab
+    context.close()
+    assert tab.faults == []
+
+
 def drained(stage: Stage, page: ViserPage) -> list[tuple[str, str | None, np.ndarray]]:
     got: list[tuple[str, str | None, np.ndarray]] = []
 
@@ -63,9 +76,7 @@ def drained(stage: Stage, page: ViserPage) -> list[tuple[str, str | None, np.nda
     return got
 
 
-def test_a_real_mouse_drag_moves_the_ball(stage: Stage, open_page: Callable[..., ViserPage]) -> None:
-    page = open_page(stage.url, 960, 540)
-    page.wait_drawn("/ball", "/triangle", "/line")
+def test_a_real_mouse_drag_moves_the_ball(stage: Stage, page: ViserPage) -> None:
     before = page.position("/ball")
 
     page.drag_node("/ball", by=(0.0, -80.0))
@@ -74,22 +85,15 @@ def test_a_real_mouse_drag_moves_the_ball(stage: Stage, open_page: Callable[...,
     assert [events[0][0], events[-1][0]] == ["start", "end"]
     page.wait_until(lambda: np.allclose(page.position("/ball"), events[-1][2], atol=1e-5))
     assert page.position("/ball")[2] > before[2] + 0.1
-    assert page.faults == []
 
 
-def test_a_drag_with_shift_carries_the_modifier(stage: Stage, open_page: Callable[..., ViserPage]) -> None:
-    page = open_page(stage.url, 960, 540)
-    page.wait_drawn("/ball")
-
+def test_a_drag_with_shift_carries_the_modifier(stage: Stage, page: ViserPage) -> None:
     page.drag_node("/ball", by=(40.0, 0.0), key="Shift")
 
     assert {modifier for _, modifier, _ in drained(stage, page)} == {"shift"}
 
 
-def test_geometry_and_pixels_are_read_back(stage: Stage, open_page: Callable[..., ViserPage]) -> None:
-    page = open_page(stage.url, 960, 540)
-    page.wait_drawn("/ball", "/triangle", "/line")
-
+def test_geometry_and_pixels_are_read_back(page: ViserPage) -> None:
     np.testing.assert_allclose(page.points("/triangle"), TRIANGLE, atol=1e-6)
     np.testing.assert_allclose(page.points("/line"), TRIANGLE[:2], atol=1e-6)
     image = page.image()
@@ -99,9 +103,7 @@ def test_geometry_and_pixels_are_read_back(stage: Stage, open_page: Callable[...
     assert share(image, image[y, x]) > 0.001
 
 
-def test_a_grab_under_a_panel_is_refused(stage: Stage, open_page: Callable[..., ViserPage]) -> None:
-    page = open_page(stage.url, 960, 540)
-    page.wait_drawn("/ball")
+def test_a_grab_under_a_panel_is_refused(page: ViserPage) -> None:
     with pytest.raises(AssertionError, match="not on the 3D canvas"):
         page.grab((5000.0, 5000.0))
 
