@@ -12,15 +12,19 @@ LOCK := UV_CUSTOM_COMPILE_COMMAND="make lock" .venv-lock/bin/uv pip compile --qu
 COMPILED := movement_primitives
 WHEELS := pyproject.toml --group build --extra physics --extra compare --extra study --no-emit-package $(COMPILED)
 
-.PHONY: run test check format bench soak fresh wheel lock ready ready-to-test
+.PHONY: run test quick check format bench soak fresh wheel lock ready ready-to-test
 
 run: ready  ## open the app
 	@OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 exec $(BIN)/gc-teach serve --open $(ARGS)
 
-# A browser draws in software here and wants both cores for itself, so its stories are told one by one.
-test: check  ## everything but benchmarks and soaks
-	$(PYTEST) -m "not soak and not browser" -n 2 --dist loadfile $(ARGS) || $(NONE_CHOSEN)
+# A browser draws in software here and wants both cores for itself, so its stories are told one by one;
+# pyright uses one core, and so is done beside the other tests.
+test: ready-to-test  ## everything but benchmarks and soaks
+	$(MAKE) --jobs 2 check quick
 	$(PYTEST) -m "not soak and browser" $(ARGS) || $(NONE_CHOSEN)
+
+quick: ready-to-test  ## all tests without a browser
+	$(PYTEST) -m "not soak and not browser" -n 2 --dist loadfile --no-loadscope-reorder $(ARGS) || $(NONE_CHOSEN)
 
 check: ready-to-test  ## style and types
 	$(BIN)/ruff check .
