@@ -6,10 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
+from app.arm.conditions import FREE, Conditions
 from app.arm.shapes import Shape
 from app.comparison import Comparison
-from app.document import FloatArray
+from app.document import FloatArray, View
 from app.model import Model
+from app.surroundings import conditions_of
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,8 @@ class Compared:
     """Methods, the tube among them."""
     starts: FloatArray | None = None
     """(S, 3) those of Try [m]; None: spread over the first slice."""
+    heeded: Conditions = FREE
+    """What the arm heeds."""
     found: Comparison | None = None
     """None: nothing is known yet."""
     picture: str = ""
@@ -69,14 +73,15 @@ class Compared:
         """Whether a model is of the same skill, however it was edited since."""
         return any(one is other for one in model.demonstrations for other in self.source.demonstrations)
 
-    def holds(self, model: Model) -> bool:
-        """Whether the same methods would give the same on a model."""
-        one, other = self.source.source, model.source
+    def holds(self, model: Model, view: View) -> bool:
+        """Whether the same methods would give the same on a model, however it is looked at."""
+        one, other, heeded = self.source.source, model.source, conditions_of(model, view)
         return (
             len(self.source.demonstrations) == len(model.demonstrations)
             and all(a is b for a, b in zip(self.source.demonstrations, model.demonstrations, strict=True))
             and one.settings == other.settings
             and _fixed(one.things) == _fixed(other.things)
+            and (heeded == self.heeded or not (heeded.obstacles or self.heeded.obstacles))
             and (self.starts is None or one.starts is other.starts)
         )
 

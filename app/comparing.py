@@ -11,7 +11,6 @@ from typing import Final
 import numpy as np
 
 from app.actor import Actor, Latest
-from app.arm.conditions import Conditions
 from app.arm.protocol import Arm
 from app.baselines import methods
 from app.compared import LOOKS, TUBE, Compared
@@ -35,18 +34,19 @@ class Comparing:
         self._actor, self._make_arm = actor, make_arm
         self._wanted: Compared | None = None
         self._known: Compared | None = None
-        self._model: Model | None = None
+        self._seen: tuple[Model, object] | None = None
+        """The model, and how the tool was held, that were last seen beside what is known."""
 
     def begin(self, desk: Desk, now: float) -> None:
         """Compare on the skill of a desk what its view names; what is under way is given up."""
         desk.let_go(now)
         desk.learned()
         asked = self._wanted = self._known = asked_for(desk.model, desk.view)
-        conditions, count = conditions_of(desk.model, desk.view), desk.view.compare_count
+        count = desk.view.compare_count
 
         def accept(known: Compared) -> None:
             if self._wanted is asked:
-                self._known, self._model = known, None
+                self._known, self._seen = known, None
 
         def end() -> None:
             if (
@@ -56,7 +56,7 @@ class Comparing:
 
         def job() -> None:
             try:
-                for known in steps(asked, count, conditions, self._make_arm):
+                for known in steps(asked, count, self._make_arm):
                     if self._wanted is not asked:
                         return
                     self._actor.post(partial(accept, known))
@@ -73,9 +73,10 @@ class Comparing:
         if state.dragging is not None and known.doing:
             self.give_up()
             known = self._known = replace(known, doing="", problem=STOPPED)
-        if state.model is not self._model:
-            self._model = state.model
-            outdated = not known.holds(state.model)
+        seen = state.model, state.view.tool
+        if self._seen is None or any(a is not b for a, b in zip(seen, self._seen, strict=True)):
+            self._seen = seen
+            outdated = not known.holds(state.model, state.view)
             if outdated != known.outdated:
                 known = self._known = replace(known, outdated=outdated)
         return known if known.about(state.model) else None
@@ -92,12 +93,10 @@ def asked_for(model: Model, view: View) -> Compared:
     if view.compare_count == 0 and model.runs:
         places = model.source.starts or [model.start_taken_back(run.start) for run in model.runs]
         starts = np.array(places)
-    return Compared(model, names, starts, doing="…")
+    return Compared(model, names, starts, conditions_of(model, view), doing="…")
 
 
-def steps(
-    asked: Compared, count: int, conditions: Conditions, make_arm: Callable[[], Arm]
-) -> Generator[Compared]:
+def steps(asked: Compared, count: int, make_arm: Callable[[], Arm]) -> Generator[Compared]:
     """Compare, and say after each step what is known.
 
     Parameters
@@ -106,22 +105,20 @@ def steps(
         What shall be compared.
     count : int
         Number of starts, where it names none.
-    conditions : Conditions
-        What the arm heeds; it is asked only where there are obstacles.
     make_arm : callable
-        Gives an arm to this thread.
+        Gives an arm to this thread; it is asked only where there are obstacles.
 
     Yields
     ------
     Compared
         The last one has nothing left to do.
     """
-    arm, known = make_arm() if conditions.obstacles else None, asked
+    arm, known = make_arm() if asked.heeded.obstacles else None, asked
     try:
         task = replace(
             task_of(asked.source.source),
             demonstrations=asked.source.demonstrations,
-            arm=None if arm is None else arm.under(conditions),
+            arm=None if arm is None else arm.under(asked.heeded),
             starts=asked.starts,
         )
         rounds = 1 if arm is None else 2

@@ -18,15 +18,14 @@ import pytest
 from app import edits
 from app.actor import Actor
 from app.arm import Jaco, PlanarArm
-from app.arm.conditions import FREE, Conditions
+from app.arm.conditions import Conditions
 from app.arm.findings import Clearance
 from app.baselines import Run
 from app.compared import LOOKS, Compared
 from app.comparing import Comparing, asked_for, steps
-from app.comparison import task_of
 from app.comparison_svg import comparison_svg, plane
 from app.desk import Desk
-from app.document import Box, Document, View
+from app.document import Box, Document, Place, View
 from app.model import learn
 from app.scene.style import DEMONSTRATION, DIRECTRIX, REPRODUCTION
 from app.skills import empty_skill, load_skill
@@ -83,7 +82,7 @@ def known(comparing: Comparing, desk: Desk) -> Compared:
 
 
 def known_of(document: Document, view: View = RAMP) -> list[Compared]:
-    return list(steps(asked_for(learn(document), view), view.compare_count, FREE, PlanarArm))
+    return list(steps(asked_for(learn(document), view), view.compare_count, PlanarArm))
 
 
 def test_what_is_known_grows_method_by_method() -> None:
@@ -152,6 +151,18 @@ def test_a_title_or_a_place_of_the_goal_changes_nothing(comparing: Comparing, de
     assert known(comparing, desk) is before
 
 
+def test_a_moved_obstacle_changes_what_the_arm_is_clear_of(comparing: Comparing, desk: Desk) -> None:
+    desk.edit(
+        lambda d: edits.add_landmark(d, "obstacle", Place("", taught=PLACE)), "add an obstacle", now=0.0
+    )
+    name = desk.store.document.landmarks[-1].name
+    comparing.begin(desk, 2.0)
+    fresh = known(comparing, desk)
+    desk.edit(lambda d: edits.move_landmark(d, name, PLACE + 0.1), "move it", now=5.0)
+
+    assert (fresh.outdated, known(comparing, desk).outdated) == (False, True)
+
+
 def test_another_skill_shows_nothing_of_this_one(comparing: Comparing, desk: Desk) -> None:
     comparing.begin(desk, 0.0)
     desk.open(empty_skill(), 5.0)
@@ -197,7 +208,7 @@ def test_what_no_method_can_learn_is_a_sentence(comparing: Comparing) -> None:
     assert only.problem.endswith(".")
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def jaco() -> Iterator[Jaco]:
     arm = Jaco()
     yield arm
@@ -215,9 +226,8 @@ def test_what_touches_only_the_upper_arm_counts_as_a_contact(jaco: Jaco) -> None
 
 def test_the_arm_is_asked_after_all_methods_have_answered(jaco: Jaco) -> None:
     document = load_skill(SKILLS, "around_an_obstacle")
-    heeded = Conditions(tuple(task_of(document).things))
     view = replace(RAMP, compare_count=2)
-    told = list(steps(asked_for(learn(document), view), 2, heeded, lambda: jaco))
+    told = list(steps(asked_for(learn(document), view), 2, lambda: jaco))
     clear = [[row.clearance_m is not None for row in each.found.rows] for each in told if each.found]
 
     assert clear == [[], [False], [False, False], [True, False], [True, True]]
@@ -233,7 +243,8 @@ class Lame(PlanarArm):
 
 def test_what_is_known_already_stays_when_the_work_ends_early() -> None:
     heeded = Conditions((Box("box", (0.0, 0.0, 0.3), (0.1, 0.1, 0.1)),))
-    last = list(steps(asked_for(learn(taught()), RAMP), 5, heeded, Lame))[-1]
+    asked = replace(asked_for(learn(taught()), RAMP), heeded=heeded)
+    last = list(steps(asked, 5, Lame))[-1]
 
     assert (last.problem, last.doing) == ("The arm does not answer.", "")
     assert last.found is not None

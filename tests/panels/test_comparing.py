@@ -9,7 +9,6 @@ from functools import cache
 import pytest
 
 from app.arm import PlanarArm
-from app.arm.conditions import FREE
 from app.compared import Compared
 from app.comparing import asked_for, steps
 from app.comparison import Comparison, Row
@@ -24,7 +23,7 @@ VIEW = View(methods=("ramp",))
 @cache
 def told() -> tuple[Compared, ...]:
     """What is known after each step."""
-    return tuple(steps(asked_for(learn(taught()), VIEW), 5, FREE, PlanarArm))
+    return tuple(steps(asked_for(learn(taught()), VIEW), 5, PlanarArm))
 
 
 def with_rows(*rows: Row) -> Compared:

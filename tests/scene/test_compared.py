@@ -8,7 +8,6 @@ from functools import cache
 import numpy as np
 
 from app.arm import PlanarArm
-from app.arm.conditions import FREE
 from app.compared import LOOKS, Compared
 from app.comparing import asked_for, steps
 from app.document import View
@@ -21,7 +20,7 @@ VIEW = View(methods=("ramp",))
 
 @cache
 def known() -> Compared:
-    return list(steps(asked_for(state().model, VIEW), 3, FREE, PlanarArm))[-1]
+    return list(steps(asked_for(state().model, VIEW), 3, PlanarArm))[-1]
 
 
 def compared(**changes: object) -> State:
