@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from app.desk import Desk
 from app.edits import EditError
 from app.history import History
 from app.library import Library, LibraryError
@@ -258,8 +259,9 @@ def test_the_work_is_saved_after_the_gesture(client: FakeClient, library: str, c
     client.wait(saved(library, code))
 
 
-def test_work_that_cannot_be_drawn_is_saved_all_the_same(
-    client: FakeClient, code: str, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(("part", "name"), [(Viewer, "draw"), (Desk, "state")])
+def test_work_that_cannot_be_learned_or_drawn_is_saved_all_the_same(
+    client: FakeClient, code: str, monkeypatch: pytest.MonkeyPatch, part: type, name: str
 ) -> None:
     written, keep = threading.Event(), Library.keep
 
@@ -272,7 +274,7 @@ def test_work_that_cannot_be_drawn_is_saved_all_the_same(
         raise ValueError("a picture that cannot be drawn")
 
     monkeypatch.setattr(Library, "keep", noted)
-    monkeypatch.setattr(Viewer, "draw", broken)
+    monkeypatch.setattr(part, name, broken)
     pull(client, "/hand", (0.10, 0.05, -0.08), events=10)
 
     assert written.wait(10.0)
