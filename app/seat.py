@@ -11,7 +11,7 @@ from app.desk import Desk
 from app.document import Document, FloatArray
 from app.exports import is_skill, unpack
 from app.files import Frame, Unit, inspect_bytes
-from app.history import History, version_of
+from app.history import History, Version, version_of
 from app.pages import fresh_code
 from app.scene import VIEWS
 from app.shelving import Job, Shelving, copied
@@ -26,7 +26,7 @@ class Seat:
 
     def __init__(self, session: Session, client_id: int) -> None:
         self._session, self._client_id = session, client_id
-        self._kept: tuple[History | None, str] = None, ""
+        self._kept: tuple[Version | None, str] = None, ""
 
     def _post(self, act: Callable[[Desk, float], None]) -> None:
         self._session.post(self._client_id, act)
@@ -194,14 +194,22 @@ class Seat:
         self._session.shelve(self._client_id, open_it)
 
     def _put_away(self, history: History) -> Job | None:
-        """Save one's own work under a code of its own, and say where it is once it is there."""
-        document = history.present.document
+        """Save one's own work under a code of its own, unless it was; say where it is once it is there."""
+        present = history.present
+        document = present.document
         if document.built_in or not document.demonstrations:
             return None
-        code = self._kept[1] if history is self._kept[0] else fresh_code()
-        self._kept = history, code
+        again = present is self._kept[0]  # it may have been worked on there since
+        code = self._kept[1] if again else fresh_code()
         where = f"{document.title} is kept at /s/{code} and in My skills. Undo brings it back here."
-        return lambda shelving: shelving.put_away(code, history, where)
+
+        def put_away(shelving: Shelving) -> str:
+            if not again:
+                shelving.put_away(code, history)
+                self._kept = present, code
+            return where
+
+        return put_away
 
     def go_back(self, stamp: int) -> None:
         """See `Actions.go_back`."""

@@ -78,11 +78,10 @@ class Shelving:
         self._made.append(code)
         return code
 
-    def put_away(self, code: str, history: History, where: str) -> str:
-        """Keep one's own work under a code of its own, in a worker; returns what to say then."""
+    def put_away(self, code: str, history: History) -> None:
+        """Keep one's own work under a code of its own, in a worker."""
         self.library.keep(code, history)
         self._made.append(code)
-        return where
 
     def _list(self, among: Known) -> Shelf:
         found = self.library.recent(MOST_CARDS, among)

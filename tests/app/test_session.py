@@ -492,6 +492,12 @@ def test_ones_own_work_keeps_an_address_when_another_skill_is_opened(
         assert other.value("Skill") == "My reaching"
         assert other.node("/demonstrations/3").visible
 
+    press(client, "Undo: open Needle")
+    client.wait(lambda c: c.value("Skill") == "My reaching")
+    client.set_gui("Open", "Needle")
+    client.wait(lambda c: c.value("Skill") == "Needle" and kept.search(c.text()))
+    assert kept.search(client.text())[1] == found[1]
+
 
 def test_a_built_in_skill_that_was_only_looked_at_is_not_kept(client: FakeClient) -> None:
     client.set_gui("Open", "Needle")
