@@ -266,6 +266,7 @@ class Session:
             self._inquirer.ask(leading.inquiry, lambda of, to: leading.answered(of, to, self.clock()))
             self._plans.follow(state)
             self._shaping.follow(state)
+            self.exporting.follow(self._desk)
             self._examining.follow(state)
 
     def _state(self) -> State:

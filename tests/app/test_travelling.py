@@ -70,6 +70,22 @@ def test_the_dialog_shows_what_will_be_in_a_file_before_it_is_taken(client: Fake
     )
 
 
+def test_what_is_taken_is_what_is_on_the_desk_also_when_that_changes_behind_the_dialog(
+    client: FakeClient,
+) -> None:
+    pull(client, "/start/0", BY)
+    client.wait(lambda c: c.value("Skill") == "My reaching")
+    client.press("Export…")
+    client.wait(lambda c: "my-reaching.gcteach" in c.text())
+
+    press(client, "Undo:")
+
+    client.wait(lambda c: ">reaching.gcteach" in c.text())
+    client.press("Download")
+    content = client.wait(lambda c: c.downloads.get("reaching.gcteach"))
+    assert unpack("reaching.gcteach", content).title == "Reaching"
+
+
 def test_every_kind_of_file_is_offered(client: FakeClient) -> None:
     client.press("Export…")
     client.wait(lambda c: DIALOG in c.modals)
