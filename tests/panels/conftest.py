@@ -25,5 +25,5 @@ def bench(server: viser.ViserServer) -> Iterator[Bench]:
     panels = Panels(server.gui, notes, SKILLS)
     with FakeClient(f"ws://127.0.0.1:{server.get_port()}") as client:
         client.wait(lambda c: c.element("Skill", "Text"))
-        yield Bench(panels, notes, client)
+        yield Bench(panels, notes, client, server.scene.add_frame("/drawn", visible=False))
     server.gui.reset()

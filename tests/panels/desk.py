@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 import queue
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+import viser
 
 from app.document import Document, Shown, View
 from app.model import Model, learn
@@ -17,6 +19,8 @@ from gc_core import Demonstration
 from tests.support.fake_client import FakeClient
 
 SKILLS = (("reaching", "Reaching"), ("needle", "Needle"))
+
+_drawings = itertools.count(1)
 
 Call = tuple[str, tuple[Any, ...]]
 
@@ -49,11 +53,15 @@ class Bench:
     panels: Panels
     notes: Notes
     client: FakeClient
+    mark: viser.FrameHandle
+    """What is sent after a drawing, so that it shows when all of that has come."""
 
     def draw(self, state: State) -> State:
         """Draw and wait until the tab shows it."""
         self.panels.draw(state)
-        self.client.wait_quiet(0.3)
+        drawn = float(next(_drawings))
+        self.mark.position = (drawn, 0.0, 0.0)
+        self.client.wait(lambda c: c.node(self.mark.name).position[0] == drawn)
         return state
 
     def edited(self, document: Document) -> Document:
