@@ -139,8 +139,8 @@ def _side(gui: viser.GuiApi, actions: Actions) -> tuple[Panel, ...]:
     with upper.add_tab("My skills", viser.Icon.FOLDER):
         mine: tuple[Panel, ...] = (
             SkillsPanel(gui, actions),
-            VersionsPanel(gui, actions),
             DeletedPanel(gui, actions),
+            VersionsPanel(gui, actions),
         )
     with lower.add_tab("Slice (cross-section)", viser.Icon.CIRCLE_DASHED):
         section = SlicePanel(gui)

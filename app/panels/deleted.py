@@ -35,7 +35,9 @@ class DeletedPanel:
             self._nothing = gui.add_html(words.note(NOTHING))
             self._demonstration: Menu[Shown] = Menu(gui, "Demonstration", "Of this skill.")
             self._back = gui.add_button("Bring the demonstration back", color=QUIET, visible=False)
-            self._skill: Menu[Summary] = Menu(gui, "Skill ", "It is deleted for good after 30 days.")
+            self._skill: Menu[Summary] = Menu(
+                gui, "Skill ", "It is deleted for good after 30 days.", key=lambda skill: skill.code
+            )
             self._buttons = gui.add_button_group("", (BRING_BACK, FOR_GOOD), visible=False)
             self._question = Question(gui)
         on_press(self._back, self._bring_back)
@@ -70,7 +72,7 @@ class DeletedPanel:
     def _forget(self) -> None:
         chosen = self._skill.chosen
         if chosen is not None:
-            question = f"Delete {chosen.title} for good? It cannot be brought back then."
+            question = f"Delete {self._skill.name} for good? It cannot be brought back then."
             self._question.ask(
                 question, "Delete it for good", lambda: self._actions.forget_skill(chosen.code)
             )

@@ -15,30 +15,82 @@ NO: Final = "No"
 
 
 class Menu(Generic[T]):
-    """Offers things by name; equal names are numbered. What was first at first is chosen."""
+    """Offers things by name; equal names are numbered.
 
-    def __init__(self, gui: viser.GuiApi, label: str, hint: str) -> None:
+    What a person chose stays chosen, under whatever name, as long as it is offered; until then the
+    likeliest thing is.
+
+    Parameters
+    ----------
+    key : callable, optional
+        What makes two things one and the same; without it they are compared themselves.
+    nothing : str
+        Shown where nothing is likely and nobody has chosen; empty: the first thing is likely.
+    """
+
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        label: str,
+        hint: str,
+        *,
+        key: Callable[[T], object] = lambda thing: thing,
+        nothing: str = "",
+        on_chosen: Callable[[], None] = lambda: None,
+    ) -> None:
         self._named: dict[str, T] = {}
+        self._key, self._nothing = key, nothing
+        self._kept: object = None
+        """Key of what is chosen."""
         self._widget = gui.add_dropdown(label, ("",), initial_value="", hint=hint, visible=False)
 
         async def changed(event: viser.GuiEvent[Any]) -> None:
-            if event.client is not None and event.target.value not in self._named:
-                event.target.value = next(iter(self._named), "")
+            if event.client is None:
+                return
+            if event.target.value not in self._named:
+                event.target.value = self._label()
+            chosen = self.chosen
+            self._kept = None if chosen is None else self._key(chosen)
+            on_chosen()
 
         self._widget.on_update(changed)
 
     @property
     def chosen(self) -> T | None:
-        """What is chosen; None when there is nothing to choose."""
+        """What is chosen; None when nothing is."""
         return self._named.get(self._widget.value)
 
-    def offer(self, things: Sequence[tuple[str, T]]) -> None:
-        """Offer these, the likeliest first; what was chosen stays chosen if it is among them."""
+    @property
+    def name(self) -> str:
+        """What it is called in the menu."""
+        return self._widget.value
+
+    def offer(self, things: Sequence[tuple[str, T]], likeliest: object = None, *, anew: bool = False) -> None:
+        """Offer these.
+
+        Parameters
+        ----------
+        things : sequence of (name, thing)
+        likeliest : object
+            Key of what is chosen unless something offered was before; None: the first.
+        anew : bool
+            What was chosen before does not count.
+        """
         labels = distinct([name for name, _ in things])
-        named = {label: thing for label, (_, thing) in zip(labels, things, strict=True)}
-        if tuple(named) != tuple(self._named):
-            assign(self._widget, options=tuple(named) or ("",), visible=bool(named))
-        self._named = named
+        self._named = {label: thing for label, (_, thing) in zip(labels, things, strict=True)}
+        keys = [self._key(thing) for thing in self._named.values()]
+        if anew or self._kept not in keys:
+            first = keys[0] if keys and not self._nothing else None
+            self._kept = likeliest if likeliest in keys else first
+        label = self._label()
+        options = tuple(self._named) if label in self._named else (label, *self._named)
+        assign(self._widget, options=options, visible=bool(self._named))
+        assign(self._widget, value=label)  # viser takes the first one where the former has gone
+
+    def _label(self) -> str:
+        return next(
+            (label for label, one in self._named.items() if self._key(one) == self._kept), self._nothing
+        )
 
 
 def distinct(names: Sequence[str]) -> list[str]:

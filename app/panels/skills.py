@@ -13,6 +13,7 @@ from app.panels import words
 from app.panels.menu import Menu, Question, when
 from app.store import Card, Shelf, State
 
+CHOOSE: Final = "choose one…"
 NOTHING: Final = "Skills are saved here by themselves, as soon as something is changed."
 COPY: Final = "Make a copy"
 DELETE: Final = "Delete…"
@@ -26,7 +27,15 @@ class SkillsPanel:
         self._changed = Changed()
         self._empty = gui.add_html(words.note(NOTHING))
         self._rows = Rows(gui.add_folder(None), partial(SkillRow, gui))
-        self._menu: Menu[Summary] = Menu(gui, "Choose", "What the buttons below are about.")
+        self._opened = Changed()
+        self._menu: Menu[Summary] = Menu(
+            gui,
+            "Choose",
+            "What the buttons below are about.",
+            key=lambda summary: summary.code,
+            nothing=CHOOSE,
+            on_chosen=self._show_buttons,
+        )
         self._buttons = gui.add_button_group("", (COPY, DELETE), visible=False)
         self._question = Question(gui)
         on_choice(self._buttons, lambda place: (self._copy, self._delete)[place]())
@@ -40,10 +49,16 @@ class SkillsPanel:
         now = datetime.now(UTC)
         for row, card in zip(self._rows.fit(len(shelf.cards)), shelf.cards, strict=True):
             row.draw(card_html(card, shelf, now))
+        titles = [card.summary.title for card in shelf.cards if card.summary.code == shelf.here]
         self._menu.offer(
-            [(f"{c.summary.title} · {when(c.summary.updated, now)}", c.summary) for c in shelf.cards]
+            [(f"{c.summary.title} · {when(c.summary.updated, now)}", c.summary) for c in shelf.cards],
+            shelf.here,
+            anew=self._opened(*titles),  # another skill is open, or this one is called otherwise
         )
-        assign(self._buttons, visible=bool(shelf.cards))
+        self._show_buttons()
+
+    def _show_buttons(self) -> None:
+        assign(self._buttons, visible=self._menu.chosen is not None)
 
     def _copy(self) -> None:
         chosen = self._menu.chosen
@@ -53,7 +68,7 @@ class SkillsPanel:
     def _delete(self) -> None:
         chosen = self._menu.chosen
         if chosen is not None:
-            question = f"Delete {chosen.title}? For 30 days it can be brought back."
+            question = f"Delete {self._menu.name}? For 30 days it can be brought back."
             self._question.ask(question, "Delete it", lambda: self._actions.delete_skill(chosen.code))
 
 

@@ -5,7 +5,7 @@ from datetime import UTC, datetime
 import viser
 
 from app.actions import Actions
-from app.binding import Changed, on_choice
+from app.binding import Changed, assign, on_choice
 from app.history import History
 from app.panels import words
 from app.panels.menu import Menu, when
@@ -20,7 +20,8 @@ class VersionsPanel:
 
     def __init__(self, gui: viser.GuiApi, actions: Actions) -> None:
         self._changed = Changed()
-        with gui.add_folder("Earlier versions", expand_by_default=False):
+        self._folder = gui.add_folder("Earlier versions", expand_by_default=False)
+        with self._folder:
             self._menu: Menu[int] = Menu(gui, "Version", "After which step, and when that was.")
             group = gui.add_button_group("", (GO_BACK, COPY))
             gui.add_html(words.note("Going back is a step like any other: Undo takes it back."))
@@ -33,7 +34,8 @@ class VersionsPanel:
         on_choice(group, act)
 
     def draw(self, state: State) -> None:
-        """List the versions."""
+        """List the versions, and say of which skill they are."""
+        assign(self._folder, label=f"Earlier versions of {state.document.title}, which is open")
         if self._changed(state.history) and state.history is not None:
             self._menu.offer(versions(state.history, datetime.now(UTC)))
 
