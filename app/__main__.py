@@ -20,10 +20,7 @@ from gc_core import GcError
 
 DESCRIPTION: Final = "Teach a robot arm a motion in the browser; `gc-teach` alone serves the app."
 
-cli: Final = SubcommandApp()
 
-
-@cli.command
 def serve(
     files: Annotated[tuple[Path, ...], tyro.conf.Positional] = (),
     host: str = "127.0.0.1",
@@ -31,7 +28,7 @@ def serve(
     library: str = "",
     open: tyro.conf.FlagCreatePairsOff[bool] = False,
 ) -> None:
-    """Serve the teaching app; a fresh page opens on the files' demonstrations, or on *Reaching*.
+    """Serve the teaching app; a fresh page opens on the files' demonstrations, or on a built-in skill.
 
     Args:
         files: A skill (.gcteach) or recordings to open (.mat .csv .npy .npz .h5 .hdf5).
@@ -59,20 +56,21 @@ def serve(
     server.close()
 
 
-cli.command(commands.encode)
-cli.command(commands.reproduce)
-cli.command(check)
-cli.command(compare)
-cli.command(figure)
-cli.command(study)
+COMMANDS: Final = (serve, commands.encode, commands.reproduce, check, compare, figure, study)
+
+
+HELP: Final = ("-h", "--help")
 
 
 def main(args: Sequence[str] | None = None) -> None:
     """Run the command that the arguments name; without one, serve."""
     arguments = list(sys.argv[1:] if args is None else args)
-    if not arguments or (arguments[0].startswith("-") and arguments[0] not in ("-h", "--help")):
+    if not arguments or (arguments[0].startswith("-") and arguments[0] not in HELP):
         arguments = ["serve", *arguments]
-    if arguments[0] in ("skills", "-h", "--help"):
+    cli = SubcommandApp()
+    for command in COMMANDS:
+        cli.command(is_default=command is serve and arguments[0] in HELP)(command)
+    if arguments[0] not in {command.__name__ for command in COMMANDS}:
         # The database takes a third of a second to import, which the other commands need not.
         from app.skill_commands import cli as skills_cli  # noqa: PLC0415
 

@@ -10,7 +10,7 @@ import json as json_text
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias
 
 import numpy as np
 import tyro
@@ -25,6 +25,8 @@ Section: TypeAlias = Literal["circle", "ellipse", "closed_spline", "hull"]
 AlignBy: TypeAlias = Literal["time", "arc_length", "dtw"]
 Law: TypeAlias = Literal["fixed", "convergent"]
 Units: TypeAlias = Literal["auto"] | Unit
+Place: TypeAlias = Annotated[Path | None, tyro.conf.arg(metavar="PATH", help_behavior_hint="")]
+"""A file or folder that need not be given; the help would call it {None}|PATH."""
 
 _DEFAULT = Settings()
 
@@ -46,7 +48,7 @@ def encode(
     stations: int = _DEFAULT.stations,
     align_by: AlignBy = _DEFAULT.align_by,
     units: Units = "auto",
-    out: Path | None = None,
+    out: Place = None,
     json: bool = False,
 ) -> None:
     """Learn the tube of a file's demonstrations and say what it is like.
@@ -78,7 +80,7 @@ def reproduce(
     stations: int = _DEFAULT.stations,
     align_by: AlignBy = _DEFAULT.align_by,
     units: Units = "auto",
-    out: Path | None = None,
+    out: Place = None,
     json: bool = False,
 ) -> None:
     """Perform the skill of a file from a new start and say how it went.

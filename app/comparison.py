@@ -236,14 +236,21 @@ def width_half_way(cylinder: GeneralizedCylinder) -> float:
     return float(widths[len(widths) // 2] / widths[0])
 
 
+def kept_of(row: Row) -> float | None:
+    """Say which part of the starts' spread is left half way [-]; None without runs, or from one place."""
+    if row.spread_mid_m is None or not row.spread_start_m:
+        return None
+    return row.spread_mid_m / row.spread_start_m
+
+
 def claims(comparison: Comparison) -> tuple[Claim, ...]:
     """Check Fig. 9: the tube keeps paths distinct, the movement primitives and the mixtures merge them."""
     wide = width_half_way(comparison.cylinder)
     found: list[Claim] = []
     for row in comparison.rows:
-        if row.spread_mid_m is None or not row.spread_start_m:
+        kept = kept_of(row)
+        if kept is None:
             continue
-        kept = row.spread_mid_m / row.spread_start_m
         if row.method == "gc":
             holds = kept >= DISTINCT * wide
             verb = "keeps the paths apart" if holds else "does not keep the paths apart here"

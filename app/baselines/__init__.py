@@ -39,6 +39,7 @@ __all__ = (
     "Method",
     "MissingPackageError",
     "Mixture",
+    "NoMethodError",
     "Primitive",
     "Ramp",
     "Run",
@@ -63,15 +64,25 @@ _COUNTED: Final[dict[str, Callable[[int, Alignment], Method]]] = {
 """Kinds with a number."""
 
 
+_POSSIBLE: Final = (
+    "Choose gc, ramp, or dmp, promp or gmr with a number of weights or components from 2 to "
+    f"{SAMPLES}: dmp-5."
+)
+
+
 class UnknownMethodError(BaselineError):
     """A name stands for no method."""
 
     def __init__(self, name: str) -> None:
-        super().__init__(
-            f"There is no method {name!r}. Choose gc, ramp, or dmp, promp or gmr with a number of weights "
-            f"or components from 2 to {SAMPLES}: dmp-5."
-        )
+        super().__init__(f"There is no method {name!r}. {_POSSIBLE}")
         self.name = name
+
+
+class NoMethodError(BaselineError):
+    """Nothing is to be compared."""
+
+    def __init__(self) -> None:
+        super().__init__(f"No method is named. {_POSSIBLE}")
 
 
 def methods(names: Sequence[str] = DEFAULT, tube: Tube | None = None) -> tuple[Method, ...]:
@@ -86,9 +97,13 @@ def methods(names: Sequence[str] = DEFAULT, tube: Tube | None = None) -> tuple[M
 
     Raises
     ------
+    NoMethodError
+        If there are no names.
     UnknownMethodError
         If a name stands for none.
     """
+    if not names:
+        raise NoMethodError
     cylinder = tube or Tube()
     return tuple(_method(name, cylinder) for name in names)
 

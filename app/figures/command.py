@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json as json_text
 from pathlib import Path
-from typing import Final
+from typing import Annotated, Final
 
 import tyro
 
-from app.commands import Units
+from app.commands import Place, Units
 from app.figures import FIGURES, Form, NoSuchFigureError, paper_figure
 from app.files import FileError, UnknownFormatError
 from app.opening import opened
@@ -17,10 +17,12 @@ FORMS: Final[tuple[Form, ...]] = ("svg", "png")
 
 
 def figure(
-    name: tyro.conf.Positional[str] = "",
-    file: tyro.conf.Positional[Path | None] = None,
+    name: Annotated[tyro.conf.Positional[str], tyro.conf.arg(metavar="[NUMBER]", help_behavior_hint="")] = "",
+    file: Annotated[
+        tyro.conf.Positional[Path | None], tyro.conf.arg(metavar="[PATH]", help_behavior_hint="")
+    ] = None,
     *,
-    out: Path | None = None,
+    out: Place = None,
     units: Units = "auto",
     json: bool = False,
 ) -> None:
@@ -43,7 +45,7 @@ def figure(
     made = paper_figure(name, document, tuple(paths))
     for form, path in paths.items():
         _write(path, made[form])
-    about = FIGURES[name].about
+    about = FIGURES[name].about if document is None else FIGURES[name].of(document.title)
     files = [str(path) for path in paths.values()]
     facts = {"figure": name, "about": about, "files": files}
     print(json_text.dumps(facts) if json else f"{about} Written to {' and '.join(files)}.", flush=True)

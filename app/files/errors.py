@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Literal
 
 from gc_core import GcError
 
@@ -21,14 +22,13 @@ class NoFileError(FileError):
 
 
 class UnknownFormatError(FileError):
-    """The suffix says nothing that can be read or written."""
+    """The suffix is none that can be read here, or written."""
 
-    def __init__(self, name: str, suffix: str, known: Sequence[str]) -> None:
-        ending = f"the ending {suffix}" if suffix else "no ending"
-        super().__init__(
-            name,
-            f"{name} has {ending}, which says nothing about its format. Use one of: {', '.join(known)}.",
-        )
+    def __init__(
+        self, name: str, suffix: str, known: Sequence[str], done: Literal["read", "written"] = "written"
+    ) -> None:
+        ending = f"files that end in {suffix}" if suffix else "files without an ending"
+        super().__init__(name, f"{name}: {ending} cannot be {done} here. Possible are: {', '.join(known)}.")
         self.suffix = suffix
         self.known = tuple(known)
 

@@ -53,14 +53,14 @@ def inspect(path: str | Path) -> Reading:
     path = Path(path)
     if path.is_dir():
         raise NoFileError(path.name, f"{path} is a folder. Choose one of the files in it.")
-    _known(path.name, PARSERS)
+    _known(path.name, PARSERS, "read")
     return inspect_bytes(path.name, content_of(path))
 
 
 def inspect_bytes(name: str, content: bytes) -> Reading:
     """Say what is in an uploaded file; as `inspect`."""
     name = Path(name).name
-    suffix = _known(name, PARSERS)
+    suffix = _known(name, PARSERS, "read")
     _check_size(name, len(content))
     if not content.strip():
         raise UnreadableError(name, "it is empty", "Record the motion again, or choose another file.")
@@ -106,7 +106,7 @@ def write(path: str | Path, demonstrations: Sequence[Demonstration]) -> None:
         If the suffix is another, there is nothing to write, or the file cannot be written.
     """
     path = Path(path)
-    suffix = _known(path.name, FORMATTERS)
+    suffix = _known(path.name, FORMATTERS, "written")
     if not demonstrations:
         raise FileError(path.name, f"There is nothing to write to {path.name}. Show the motion first.")
     put(path, FORMATTERS[suffix](demonstrations))
@@ -128,10 +128,10 @@ def put(path: Path, content: bytes) -> None:
         ) from error
 
 
-def _known(name: str, registry: Mapping[str, object]) -> str:
+def _known(name: str, registry: Mapping[str, object], done: Literal["read", "written"]) -> str:
     suffix = Path(name).suffix.lower()
     if suffix not in registry:
-        raise UnknownFormatError(name, suffix, tuple(registry))
+        raise UnknownFormatError(name, suffix, tuple(registry), done)
     return suffix
 
 

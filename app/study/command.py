@@ -9,6 +9,7 @@ from typing import Annotated
 
 import tyro
 
+from app.commands import Place
 from app.study.executors import opened
 from app.study.report import write_report
 from app.study.running import Outcome, run_study
@@ -19,10 +20,12 @@ from gc_core import InvalidSettingError
 def study(
     spec: tyro.conf.Positional[Path],
     *,
-    data: Path | None = None,
-    out: Path | None = None,
-    scheduler: str | None = None,
-    workers: Annotated[int | None, tyro.conf.arg(help_behavior_hint="(default: one a core)")] = None,
+    data: Place = None,
+    out: Place = None,
+    scheduler: Annotated[str | None, tyro.conf.arg(metavar="ADDRESS", help_behavior_hint="")] = None,
+    workers: Annotated[
+        int | None, tyro.conf.arg(metavar="INT", help_behavior_hint="(default: one a core)")
+    ] = None,
     json: bool = False,
 ) -> None:
     """Run a study of many skills and methods, and write its tables and a report.

@@ -28,9 +28,9 @@ def test_a_figure_of_a_file_is_written_where_it_is_wanted(
 
     main(["figure", "8", str(file), "--out", str(tmp_path / "new"), "--json"])
 
-    assert json.loads(capsys.readouterr().out)["files"] == [
-        str(tmp_path / "new" / f"figure-8.{form}") for form in ("svg", "png")
-    ]
+    said = json.loads(capsys.readouterr().out)
+    assert said["about"] == "A skill with new runs. Drawn of 'mine'."
+    assert said["files"] == [str(tmp_path / "new" / f"figure-8.{form}") for form in ("svg", "png")]
     assert (tmp_path / "new" / "figure-8.svg").read_bytes().startswith(b"<?xml")
     assert (tmp_path / "new" / "figure-8.png").read_bytes().startswith(b"\x89PNG")
 
@@ -40,7 +40,10 @@ def test_a_figure_of_a_file_is_written_where_it_is_wanted(
     [
         (["3"], "There is no figure called '3'"),
         (["4", "no_such_skill"], "no built-in skill called"),
-        (["4", "--out", "figure.bmp"], ".svg, .png"),
+        (
+            ["4", "--out", "figure.pdf"],
+            "files that end in .pdf cannot be written here. Possible are: .svg, .png",
+        ),
     ],
 )
 def test_what_cannot_be_made_is_said_in_a_sentence(
