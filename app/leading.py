@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 SHORTEST: Final = 0.03
 """A demonstration shorter than this was a slip of the hand [m]."""
+SLIGHT: Final = 0.25
+"""A demonstration shorter than this part of what was shown is hardly one: it is kept, and muted."""
 LARGEST_NUDGE: Final = 0.5
 """No press of a button moves the hand farther [m]."""
 
@@ -131,6 +133,9 @@ class Leading:
             desk.say(sentences.too_short(part), warning=True)
             return
         shown = drawn.taken_back(drawn.demonstration(part), among)
+        motion = 0.0 if among.cylinder is None else float(among.cylinder.arc_length[-1])
+        slight = part.length < SLIGHT * motion
+        shown = replace(shown, muted=shown.muted or slight)
         there = [one.demonstration for one in desk.store.document.demonstrations]
         former = next((one for one in there if one is desk.view.redo), None)  # it may be deleted by now
         name = "demonstrate" if former is None else f"show {former.name} again"
@@ -138,7 +143,11 @@ class Leading:
         desk.look(redo=None)
         learned_from = [s.demonstration for s in desk.store.document.demonstrations if not s.muted]
         goal = next((anchor.now for anchor in among.anchors if anchor.kind == "goal"), None)
-        said = sentences.demonstrated(part, learned_from, shown, goal)
+        said = (
+            sentences.slight(part, motion)
+            if slight
+            else sentences.demonstrated(part, learned_from, shown, goal)
+        )
         if former is not None:
             said = f"It took the place of {former.name}. {said}"
         desk.say(said if back else f"{said} {sentences.NO_WAY_BACK}", warning=shown.muted or not back)

@@ -5,6 +5,7 @@ from typing import Final
 
 import numpy as np
 
+from app import bending
 from app.document import FloatArray
 from app.drawn import Drawn, TakenBack
 from gc_core import Demonstration
@@ -19,6 +20,14 @@ def too_short(drawn: Drawn) -> str:
     return (
         f"That was only {100 * drawn.length:.1f} cm, so it was not kept. Pull the hand through the whole "
         "motion and let go at its end."
+    )
+
+
+def slight(drawn: Drawn, motion: float) -> str:
+    """A pull was kept that is hardly a demonstration of a motion [m]."""
+    return (
+        f"That was only {bending.length(drawn.length)} of the {bending.length(motion)} motion. It is kept, "
+        "and not learned from until you switch it on (Teach)."
     )
 
 

@@ -33,14 +33,20 @@ class Grip:
         self._towards: FloatArray | None = None
         self._size = (1.0, 1.0, 1.0)
 
-    def aim(self, place: FloatArray, camera: FloatArray, *, scale: float = 1.0) -> None:
-        """Point from the ball's place (3,) to the camera (3,) [m]; costs nothing when it does already."""
+    def aim(
+        self, place: FloatArray, camera: FloatArray, *, scale: float = 1.0, length: float | None = None
+    ) -> None:
+        """Point from the ball's place (3,) to the camera (3,) [m]; costs nothing when it does already.
+
+        A ``length`` [m] makes only the rod longer, while ``scale`` makes it wider as well.
+        """
         away = float(np.linalg.norm(camera - place))
         if away < 1e-6:
             return
         towards = (camera - place) / away
-        shorter = float(np.floor(10.0 * BEFORE * away / (scale * self._length))) / 10.0
-        size = (scale, scale, scale * min(max(shorter, 0.1), 1.0))
+        longest = scale * self._length if length is None else length
+        shorter = float(np.floor(10.0 * BEFORE * away / longest)) / 10.0
+        size = (scale, scale, longest / self._length * min(max(shorter, 0.1), 1.0))
         if self._towards is not None and size == self._size and towards @ self._towards > TURN:
             return
         first = self._towards is None

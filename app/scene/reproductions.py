@@ -6,6 +6,7 @@ ends, and what it was before is dashed grey.
 
 from collections.abc import Callable
 
+import numpy as np
 import viser
 
 from app.actions import Actions
@@ -20,16 +21,18 @@ from app.scene.style import (
     DOT_RADIUS,
     DOUBLE,
     FREE,
+    HAND_RADIUS,
     PICK_RADIUS,
     REFINED,
     REPRODUCTION,
     START_GRIP,
+    START_GRIP_BESIDE,
     START_RADIUS,
     START_RADIUS_IN_TRY,
     THICK,
 )
 from app.scene.view import Eye
-from app.store import State
+from app.store import Hand, State
 
 
 class Reproductions:
@@ -117,7 +120,8 @@ class Starts:
             name = f"/start/{len(self._starts)}"
             self._starts.append(_Start(self._api, name, self._actions, self._clock))
         for i, ball in enumerate(self._starts):
-            ball.draw(runs[i].start if i < len(runs) else None, scale, self._eye.position)
+            playing = state.hand if state.playback.playing else None
+            ball.draw(runs[i].start if i < len(runs) else None, scale, self._eye.position, playing)
 
 
 class _Start:
@@ -129,10 +133,11 @@ class _Start:
         self._start: FloatArray | None = None
         self._scale = 0.0
 
-    def draw(self, start: FloatArray | None, scale: float, camera: FloatArray) -> None:
+    def draw(self, start: FloatArray | None, scale: float, camera: FloatArray, playing: Hand | None) -> None:
         if start is not None:
             self._show(start, scale)
-            self._grip.aim(start, camera, scale=scale)
+            seen = playing is not None and not hides(playing.position, start, camera, scale * START_RADIUS)
+            self._grip.aim(start, camera, scale=scale, length=START_GRIP_BESIDE if seen else None)
         elif self._start is not None:
             self._ball.hide()
         self._start, self._scale = start, scale
@@ -144,3 +149,15 @@ class _Start:
         if not self._bound:
             bind_pull(handle, self._actions, self._clock, ball=True)
             self._bound = True
+
+
+def hides(hand: FloatArray, start: FloatArray, camera: FloatArray, radius: float) -> bool:
+    """Whether the hand's ball lies over the middle of a start's ball of a radius [m], as seen by the camera.
+
+    Where a larger start's ball holds the hand's, the start is what one sees.
+    """
+    sight = start - camera
+    ahead = float(sight @ (hand - camera)) / max(float(sight @ sight), 1e-12)
+    beside = float(np.linalg.norm(hand - camera - ahead * sight))
+    within = float(np.linalg.norm(hand - start)) < HAND_RADIUS
+    return beside < HAND_RADIUS and (radius < HAND_RADIUS if within else ahead < 1.0)

@@ -67,5 +67,7 @@ HAND_GRIP: Final = 0.30
 """Length of the invisible rods that let a ball win over lines in front of it [m]; see `app.scene.grip`."""
 START_GRIP: Final = 0.25
 """Less than the hand: where both are, the hand is meant."""
+START_GRIP_BESIDE: Final = 0.50
+"""More than a hand that plays, whose wide rod lies over a start that is seen beside its ball."""
 LANDMARK_GRIP: Final = 1.10
 """More than a hand that plays, which lies on the goal at each end, and past wide curves before it."""

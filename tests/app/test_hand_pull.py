@@ -93,7 +93,7 @@ def test_too_short_a_pull_is_not_kept_and_says_so(desk: Desk, mouse: Mouse) -> N
 
 
 def test_a_kept_demonstration_is_announced(desk: Desk, mouse: Mouse) -> None:
-    mouse.pull("/hand", WAY)
+    mouse.pull("/hand", 1.3 * WAY)
 
     assert not desk.warning
     assert "That was a demonstration" in desk.message
@@ -358,3 +358,20 @@ def test_what_is_recorded_of_the_gripper_is_what_is_shown_though_a_run_was_playe
 
     assert desk.state().view.gripper_closed
     assert set(last(desk).gripper) == {1.0}
+
+
+def test_a_tug_much_shorter_than_the_motion_is_kept_but_teaches_nothing(desk: Desk, mouse: Mouse) -> None:
+    tube, before = desk.model.cylinder, desk.store.document
+
+    mouse.pull("/hand", (0.05, 0.0, 0.0))
+    desk.state()
+    shown = desk.store.document.demonstrations[-1]
+    radii = None if desk.model.cylinder is None else desk.model.cylinder.radii
+    said = desk.message
+    desk.undo(mouse.now)
+
+    assert shown.muted
+    assert "That was only" in said
+    assert tube is not None
+    np.testing.assert_array_equal(radii, tube.radii)
+    assert desk.store.document is before

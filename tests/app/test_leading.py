@@ -145,10 +145,10 @@ def test_a_held_tool_keeps_its_turn_while_the_hand_is_pulled(jaco: Jaco) -> None
 
 def test_only_demonstrations_with_a_held_tool_keep_orientations(jaco: Jaco) -> None:
     desk, mouse = at_rest(jaco)
-    mouse.pull("/hand", tuple(WAY))
+    mouse.pull("/hand", tuple(1.4 * WAY))
     mouse.wait(2.0)
     desk.leading.hold(True)
-    mouse.pull("/hand", tuple(WAY))
+    mouse.pull("/hand", tuple(1.4 * WAY))
     free, held = (shown.demonstration for shown in desk.store.document.demonstrations[-2:])
 
     assert free.orientations is None

@@ -312,6 +312,23 @@ def test_the_grip_of_the_hand_points_at_the_camera(stage: Stage) -> None:
     np.testing.assert_allclose(ahead, [0.0, 0.0, 1.0], atol=1e-9)
 
 
+@pytest.mark.parametrize(("beside", "wins"), [(0.04, "/start/0"), (0.0, "/hand")])
+def test_a_start_seen_beside_a_hand_that_plays_is_what_a_press_on_it_takes(
+    stage: Stage, beside: float, wins: str
+) -> None:
+    shown = state()
+    start = shown.model.runs[0].start
+    stage.scene.look_from(start + np.array([0.0, -2.0, 0.0]))
+    hand = replace(shown.hand, position=start + np.array([beside, 0.0, 0.0]))
+    stage.draw(replace(shown, hand=hand, playback=replace(shown.playback, playing=True)))
+    reach = {}
+    for node in ("/start/0", "/hand"):
+        grip = stage.client.node(f"{node}/grip")
+        reach[node] = grip.array("vertices", -1, 3)[:, 2].max() * grip.props["scale"][2]
+
+    assert max(reach, key=lambda node: reach[node]) == wins
+
+
 @pytest.mark.parametrize("near", [0.3, 0.8, 3.0])
 def test_no_grip_reaches_the_camera(stage: Stage, near: float) -> None:
     shown = state()
