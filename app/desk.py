@@ -17,7 +17,7 @@ from app.files import Frame, Reading, Unit
 from app.gesture import Pull
 from app.grasp import Grasp
 from app.handpull import HandPull
-from app.history import History
+from app.history import History, opening
 from app.leading import Leading
 from app.linepull import LinePull
 from app.model import learn
@@ -134,7 +134,7 @@ class Desk:
         self.let_go(now)
         self.amending.settle("", now)
         self.amending.discard()
-        self.store.replace(document, f"open {document.title}")
+        self.store.replace(document, opening(document))
         self.stage.open(playing=bool(document.demonstrations))
         if document.demonstrations:
             self.stage.driver.lead()

@@ -18,6 +18,8 @@ DEEPEST: Final = 300
 """Undo steps that are kept."""
 DELETE: Final = "delete "
 """So begins the name of every edit that deletes a demonstration."""
+BEGIN: Final = "begin "
+"""So begins the name of every version in which a skill was opened that shows nothing yet."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,6 +96,11 @@ class History:
 def begin(document: Document, now: float) -> History:
     """Make the history of a skill that was never edited, at a time [s since 1970, UTC]."""
     return History((Version(int(1e6 * now), "", document),), 0)
+
+
+def opening(document: Document) -> str:
+    """Name the step that opens another skill in the place of this one."""
+    return f"{'open ' if document.demonstrations else BEGIN}{document.title}"
 
 
 def version_of(history: History, stamp: int) -> Version | None:

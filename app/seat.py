@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
 from app import skills
@@ -12,8 +13,10 @@ from app.document import Document, FloatArray
 from app.exports import is_skill, unpack
 from app.files import Frame, Unit, inspect_bytes
 from app.history import History, Version, version_of
+from app.library import Summary
 from app.pages import fresh_code
 from app.scene import VIEWS
+from app.sentences import when
 from app.shelving import Job, Shelving, copied
 from app.viewers import Viewer
 
@@ -236,16 +239,16 @@ class Seat:
     def delete_skill(self, code: str) -> None:
         """See `Actions.delete_skill`."""
         self._shelve(
-            lambda shelving: _said(shelving.library.delete(code), "It is among the recently deleted.")
+            lambda s: _done(s.library.delete, code, s.library.recent, "is among the recently deleted")
         )
 
     def restore_skill(self, code: str) -> None:
         """See `Actions.restore_skill`."""
-        self._shelve(lambda shelving: _said(shelving.library.restore(code), "It is in My skills again."))
+        self._shelve(lambda s: _done(s.library.restore, code, s.library.deleted, "is in My skills again"))
 
     def forget_skill(self, code: str) -> None:
         """See `Actions.forget_skill`."""
-        self._shelve(lambda shelving: _said(shelving.library.forget(code), "It is deleted for good."))
+        self._shelve(lambda s: _done(s.library.forget, code, s.library.deleted, "is deleted for good"))
 
     def _shelve(self, job: Job) -> None:
         self._session.shelve(self._client_id, lambda _desk, _now: job)
@@ -255,8 +258,14 @@ def go_back(desk: Desk, stamp: int, now: float) -> None:
     """Work on another version of the skill, as a step that can be undone."""
     version = version_of(desk.store.history, stamp)
     if version is not None:
-        desk.edit(lambda _: version.document, f"go back to {version.name or 'the beginning'}", now=now)
+        made = when(datetime.fromtimestamp(version.made, UTC), datetime.now(UTC))
+        name = f"go back to {made if version.name else 'the beginning'}"
+        desk.edit(lambda _: version.document, name, now=now)
 
 
-def _said(done: bool, words: str) -> str:
-    return words if done else "This skill is gone already."
+def _done(
+    do: Callable[[str], bool], code: str, listed: Callable[[int, list[str]], list[Summary]], words: str
+) -> str:
+    """Do something with a skill of a list, and say what became of which."""
+    titles = [summary.title for summary in listed(1, [code])]
+    return f"{titles[0] if titles else 'It'} {words}." if do(code) else "This skill is gone already."

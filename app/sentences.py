@@ -1,6 +1,7 @@
 """What the desk says to a person: what happened, why, and what to do, in centimetres and seconds."""
 
 from collections.abc import Sequence
+from datetime import datetime
 from typing import Final
 
 import numpy as np
@@ -61,3 +62,11 @@ def demonstrated(
             "Mute or delete the others."
         )
     return f"That was a demonstration of {drawn.times[-1]:.1f} s. {more}"
+
+
+def when(time: datetime, now: datetime) -> str:
+    """Say when something was, on the server's clock: 14:05 of this day, 3 Nov 14:05 of another."""
+    time, now = time.astimezone(), now.astimezone()
+    if time.date() == now.date():
+        return f"{time:%H:%M}"
+    return f"{time.day} {time:%b %H:%M}" if time.year == now.year else f"{time.day} {time:%b %Y}"

@@ -26,7 +26,7 @@ from app.library.codec import Array, Known, decode_document, encode_document
 from app.library.connect import open_engine
 from app.library.errors import BadCodeError, LibraryError, UnreadableSkillError
 from app.library.packing import ArrayNames, Packed, row_of
-from app.library.tables import arrays, insert_new, skills, steps, upsert, uses
+from app.library.tables import arrays, insert_new, skills, steps, untouched, upsert, uses
 
 KEPT_DELETED: Final = 30 * 24 * 3600.0
 """So long a deleted skill can be brought back [s]."""
@@ -167,7 +167,7 @@ class Library:
         return Kept(History(versions, place), frozenset(skill.tried.split()), skill.deleted is not None)
 
     def recent(self, limit: int = 20, among: Collection[str] | None = None) -> list[Summary]:
-        """List skills, the last saved first.
+        """List skills, the last saved first, but for those that were only begun.
 
         Parameters
         ----------
@@ -181,8 +181,8 @@ class Library:
         LibraryError
             If the database cannot be read.
         """
-        query = select(*_LISTED).where(skills.c.deleted.is_(None)).order_by(skills.c.updated.desc())
-        return self._list(query, limit, among)
+        query = select(*_LISTED).where(skills.c.deleted.is_(None), ~untouched)
+        return self._list(query.order_by(skills.c.updated.desc()), limit, among)
 
     def deleted(self, limit: int = 20, among: Collection[str] | None = None) -> list[Summary]:
         """List the skills that can be brought back, the last deleted first; otherwise as `recent`."""

@@ -23,8 +23,11 @@ from sqlalchemy import (
     String,
     Table,
     Text,
+    select,
 )
 from sqlalchemy.dialects import postgresql, sqlite
+
+from app.history import BEGIN
 
 SCHEMA: Final = "2"
 """Version of these tables."""
@@ -73,6 +76,13 @@ uses = Table(
     ForeignKeyConstraint(["code", "stamp"], ["steps.code", "steps.stamp"], ondelete="CASCADE"),
     Index("uses_hash", "hash"),
 )
+
+untouched = (
+    select(steps.c.code)
+    .where(steps.c.code == skills.c.code, steps.c.stamp == skills.c.present, steps.c.name.startswith(BEGIN))
+    .exists()
+)
+"""Of a skill: it was begun, and nothing was done since."""
 
 
 def insert_new(connection: Connection, table: Table, rows: Sequence[dict[str, Any]]) -> None:

@@ -13,7 +13,8 @@ from app.document import Shown
 from app.history import deleted_demonstrations
 from app.library import Summary
 from app.panels import words
-from app.panels.menu import Menu, Question, when
+from app.panels.menu import Menu, Question
+from app.sentences import when
 from app.store import State
 
 NOTHING: Final = (

@@ -1,7 +1,6 @@
 """A menu of things that come and go, and a question before something is lost."""
 
 from collections.abc import Callable, Sequence
-from datetime import datetime
 from typing import Any, Final, Generic, TypeVar
 
 import viser
@@ -133,11 +132,3 @@ class Question:
         self.withdraw()
         if place == 0 and action is not None:
             action()
-
-
-def when(time: datetime, now: datetime) -> str:
-    """Say when something was, on the server's clock: 14:05 of this day, 3 Nov 14:05 of another."""
-    time, now = time.astimezone(), now.astimezone()
-    if time.date() == now.date():
-        return f"{time:%H:%M}"
-    return f"{time.day} {time:%b %H:%M}" if time.year == now.year else f"{time.day} {time:%b %Y}"

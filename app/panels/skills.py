@@ -10,7 +10,8 @@ from app.actions import Actions
 from app.binding import Changed, Rows, assign, on_choice
 from app.library import Summary
 from app.panels import words
-from app.panels.menu import Menu, Question, when
+from app.panels.menu import Menu, Question
+from app.sentences import when
 from app.store import Card, Shelf, State
 
 CHOOSE: Final = "choose one…"

@@ -8,7 +8,8 @@ from app.actions import Actions
 from app.binding import Changed, assign, on_choice
 from app.history import History
 from app.panels import words
-from app.panels.menu import Menu, when
+from app.panels.menu import Menu
+from app.sentences import when
 from app.store import State
 
 GO_BACK = "Go back to it"

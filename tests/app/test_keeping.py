@@ -6,6 +6,7 @@ import itertools
 import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future
+from datetime import datetime
 from pathlib import Path
 
 import pytest
@@ -17,6 +18,7 @@ from app.edits import delete_demonstration, rename_skill
 from app.history import begin
 from app.keeping import Keeper
 from app.library import Library, LibraryError
+from app.seat import go_back
 from app.server import Server
 from tests.app.makers import taught
 from tests.app.site import library_in, picture, press, pull, serving, tab
@@ -89,6 +91,17 @@ def test_an_earlier_version_is_worked_on_again_and_that_is_undone(server: Server
         client.wait(lambda c: picture(c) == moved)
 
 
+def test_going_back_is_named_after_the_time_of_the_version() -> None:
+    desk = Desk(taught(), PlanarArm())
+    desk.edit(lambda d: rename_skill(d, "First"), "demonstrate", now=0.0)
+    first = desk.store.history.present
+    desk.edit(lambda d: rename_skill(d, "Second"), "move goal", now=9.0)
+
+    go_back(desk, first.stamp, 10.0)
+
+    assert desk.store.undo_name == f"go back to {datetime.fromtimestamp(first.made):%H:%M}"
+
+
 def test_a_copy_of_a_skill_is_listed_with_its_picture_and_lives_on_its_own(
     server: Server, library: str
 ) -> None:
@@ -113,7 +126,8 @@ def test_a_deleted_skill_is_asked_for_and_brought_back(server: Server, library: 
         client.wait(lambda c: "can be brought back" in c.text())
         assert [summary.code for summary in shelf.recent()] == [CODE]
         client.press("Delete it")
-        client.wait(lambda c: [s.code for s in shelf.deleted()] == [CODE] and "recently deleted" in c.text())
+        client.wait(lambda c: "My reaching is among the recently deleted." in c.text())
+        assert [s.code for s in shelf.deleted()] == [CODE]
         press_option(client, "Bring it back")
         client.wait(lambda _: [s.code for s in shelf.recent()] == [CODE])
     shelf.close()

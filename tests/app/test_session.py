@@ -475,7 +475,7 @@ def test_an_empty_skill_of_ones_own_can_be_opened_and_undone(client: FakeClient)
     client.set_gui("Open", "Teach your own")
     client.wait(lambda c: not c.node("/tube").visible and not c.node("/demonstrations/0").visible)
 
-    press(client, "Undo:")
+    press(client, "Undo: begin My skill")
 
     client.wait(lambda c: picture(c) == before)
 

@@ -15,6 +15,7 @@ import pytest
 
 from app.document import Document, Shown
 from app.edits import add_start, mute_demonstration
+from app.history import begin, opening
 from app.library import (
     KEPT_DELETED,
     ArrayNames,
@@ -150,6 +151,15 @@ def test_recent_lists_the_last_saved_first(library: Library) -> None:
     assert [(s.code, s.title) for s in listed] == [("first", "First again"), ("third", "Third")]
     assert listed[0].updated > listed[1].updated
     assert [s.code for s in library.recent(2, among={"second", "unknown"})] == ["second"]
+
+
+def test_a_skill_that_was_only_begun_is_not_listed(library: Library) -> None:
+    begun = begin(document(), 1.0).after(Document("My skill"), opening(Document("My skill")), 2.0)
+    library.keep("begun", begun)
+    library.keep("named", begun.after(Document("Pouring"), "rename skill", 3.0))
+
+    assert [summary.title for summary in library.recent()] == ["Pouring"]
+    assert library.open("begun") is not None
 
 
 def test_a_second_library_on_the_same_database_sees_what_was_saved(library: Library, url: str) -> None:
