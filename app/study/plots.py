@@ -18,6 +18,8 @@ ACROSS: Final = 4
 """Frames beside each other."""
 SIZE: Final = (2.6, 0.17, 0.75)
 """A frame's width, a line's height, and a frame's margins [inch]."""
+EDGE: Final = 0.04
+"""Room beside what is drawn, by its width [-]."""
 TUBE: Final = "#1F3FA8"
 OTHER: Final = "#7A2E00"
 MARKS: Final = ("o", "s", "^")
@@ -93,4 +95,6 @@ def _draw(
     if measure.log:
         frame.set_xscale("log")
     else:
-        frame.set_xlim(left=min(0.0, frame.get_xlim()[0]))
+        low, high = min(0.0, frame.dataLim.x0), max(0.0, frame.dataLim.x1)
+        room = EDGE * (high - low or 1.0)  # no dot is cut by the frame
+        frame.set_xlim(low - room, high + room)

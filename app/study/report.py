@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import platform
+from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,8 @@ from app.study.running import Outcome
 from app.study.spec import Spec
 from app.study.summary import CHAPTERS, Chapter, Line, Quartiles, failures, lines_of
 
+MOST_NAMED = 4
+"""In a finding."""
 _MARK_NAMES = dict(zip(MARKS, ("dot", "square", "triangle"), strict=True))
 
 
@@ -43,6 +46,7 @@ def write_report(found: Outcome, folder: Path) -> Path:
         plan=found.spec.plan,
         versions=dict(versions()) | {"Python": platform.python_version()},
         chapters=[filled for chapter in CHAPTERS if (filled := _chapter(chapter, found))],
+        findings=[said for chapter in CHAPTERS for said in findings(chapter, found)],
         marks=list(zip(_MARK_NAMES.values(), sorted(found.spec.alignments), strict=False)),
         failures=failures(found.found),
         cell=cell,
@@ -80,6 +84,27 @@ def _as_asked(line: Line, spec: Spec) -> tuple[str, int, str, str]:
     """Order of lines: methods as the spec names them."""
     part = line.part
     return part.data_set, spec.methods.index(part.method), part.section, part.alignment
+
+
+def findings(chapter: Chapter, found: Outcome) -> list[str]:
+    """Say of each number of an experiment who is the best on most data sets; nothing where one is alone."""
+    lines = lines_of(chapter, found.found)
+    said: list[str] = []
+    for measure in chapter.measures:
+        medians: dict[str, list[tuple[float, str]]] = {}
+        for line in lines:
+            if measure.better and (value := line.found[measure.column]) is not None:
+                name = f"{line.label} {line.part.alignment if len(found.spec.alignments) > 1 else ''}".strip()
+                medians.setdefault(line.part.data_set, []).append((float(_short(value.median)), name))
+        first = min if measure.better == "least" else max
+        ahead = Counter(
+            name for each in medians.values() for value, name in each if value == first(each)[0] and each[1:]
+        )
+        if ahead:
+            named = ", ".join(f"{name} ({count})" for name, count in ahead.most_common(MOST_NAMED))
+            more = f" and {len(ahead) - MOST_NAMED} more" if len(ahead) > MOST_NAMED else ""
+            said.append(f"{chapter.title}, {measure.title}: {measure.better} for {named}{more}.")
+    return said
 
 
 def cell(found: Quartiles | None) -> str:

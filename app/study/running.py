@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import Final
 
 from app.study.errors import FolderError, StoppedError
-from app.study.executors import Executor, tool
+from app.study.executors import Executor, in_this_process, tool
 from app.study.experiments import Done, Job
 from app.study.keeping import Shelf
 from app.study.parts import Part, key_of, parts_of, versions
@@ -99,13 +100,17 @@ def _finished(
     """Give parts as they are finished, with a bar on stderr that counts them."""
     # Into a file, a line now and then; on a screen, a bar that moves.
     every = 0.2 if sys.stderr.isatty() else 10.0
-    bar = tool("tqdm").tqdm(
-        mininterval=every, total=before + len(jobs), initial=before, unit="part", desc="study", smoothing=0.05
+    bar = partial(
+        tool("tqdm").tqdm,
+        mininterval=every,
+        total=before + len(jobs),
+        initial=before,
+        unit="part",
+        desc="study",
+        smoothing=0.05,
     )
-    with bar:
-        if not jobs:
-            return
-        with executor as work_out:
-            for job, done in work_out(jobs, data):
-                yield job.part, done
-                bar.update()
+    # A cluster that does not answer is said before there is a bar.
+    with executor if jobs else nullcontext(in_this_process) as work_out, bar() as shown:
+        for job, done in work_out(jobs, data):
+            yield job.part, done
+            shown.update()

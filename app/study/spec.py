@@ -139,12 +139,8 @@ class _Reader:
             farthest_m=self._length("farthest_m", Plan().farthest_m),
             leave_one_out=self._value("leave_one_out", bool, "true or false", default=False),
         )
-        if not (plan.starts or plan.moves or plan.leave_one_out):
-            raise BadSpecError(
-                self.file, "there is nothing to do. Give starts, moves or leave_one_out = true."
-            )
         folder = Path(self._value("data", str, "a folder in quotes", default="."))
-        return Spec(
+        spec = Spec(
             file=self.file,
             title=self._value("title", str, "words in quotes", default=path.stem),
             data=data or path.resolve().parent / folder,
@@ -156,11 +152,17 @@ class _Reader:
             ),
             plan=plan,
         )
+        if not (plan.starts or plan.moves or plan.leave_one_out):
+            raise BadSpecError(
+                self.file, "there is nothing to do. Give starts, moves or leave_one_out = true."
+            )
+        return spec
 
     def _known(self, given: Mapping[str, Any], keys: tuple[str, ...]) -> None:
-        for key in given:
-            if key not in keys:
-                raise BadSpecError(self.file, f"there is no key {key!r}. Possible are: {', '.join(keys)}.")
+        unknown = [repr(key) for key in given if key not in keys]
+        if unknown:
+            named = f"is no key {unknown[0]}" if len(unknown) == 1 else f"are no keys {', '.join(unknown)}"
+            raise BadSpecError(self.file, f"there {named}. Possible are: {', '.join(keys)}.")
 
     def _value(self, key: str, kind: type[_T], wanted: str, *, default: _T) -> _T:
         value = self.values.get(key, default)
@@ -187,6 +189,8 @@ class _Reader:
     def _list(self, key: str, default: tuple[str, ...] | None, what: str) -> list[Any]:
         value: Any = self.values.get(key, None if default is None else list(default))
         found = cast("list[Any]", value)
+        if value is None:
+            raise BadSpecError(self.file, f"the key {key} is missing. Give it a list of {what} in brackets.")
         if not isinstance(value, list) or not found:
             raise self._wrong(key, found, f"a list of {what} in brackets")
         for place, each in enumerate(found):

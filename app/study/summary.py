@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, Literal
 
 import numpy as np
 
@@ -29,6 +29,8 @@ class Measure:
     meaning: str
     drawn: bool = True
     log: bool = False
+    better: Literal["least", "most"] | None = None
+    """Which of its values is the best; None: neither is."""
 
 
 @dataclass(frozen=True)
@@ -74,6 +76,7 @@ CHAPTERS: Final = (
                 "cm",
                 100.0,
                 "Distance of a run's end from the mean end of the demonstrations.",
+                better="least",
             ),
             Measure(
                 "frechet_m",
@@ -82,6 +85,7 @@ CHAPTERS: Final = (
                 100.0,
                 "Discrete Frechet distance of a run from the nearest demonstration: the shortest leash for "
                 "two walks that never turn back.",
+                better="least",
             ),
             Measure(
                 "dtw_m",
@@ -91,13 +95,14 @@ CHAPTERS: Final = (
                 "Dynamic time warping distance of a run from the nearest demonstration, by its samples.",
                 drawn=False,
             ),
-            Measure("jerk", "Jerk", "m²/s⁶", 1.0, _JERK, log=True),
+            Measure("jerk", "Jerk", "m²/s⁶", 1.0, _JERK, log=True, better="least"),
             Measure(
                 "contained_shown",
                 "Inside what was shown",
                 "%",
                 100.0,
                 "Share of a run's samples in the tightest tube (hull) around the demonstrations.",
+                better="most",
             ),
             Measure(
                 "contained_own",
@@ -125,7 +130,14 @@ CHAPTERS: Final = (
                 "Distance of a run's beginning from the moved start.",
                 drawn=False,
             ),
-            Measure("end_error_m", "End off", "cm", 100.0, "Distance of a run's end from the moved goal."),
+            Measure(
+                "end_error_m",
+                "End off",
+                "cm",
+                100.0,
+                "Distance of a run's end from the moved goal.",
+                better="least",
+            ),
             Measure(
                 "shape",
                 "Change of shape",
@@ -133,6 +145,7 @@ CHAPTERS: Final = (
                 100.0,
                 "Root mean square distance from the run of the same method that was not moved after the best "
                 "similarity (shifted, turned, scaled), by that run's length.",
+                better="least",
             ),
             Measure("jerk", "Jerk", "m²/s⁶", 1.0, _JERK, drawn=False, log=True),
             Measure(
@@ -159,13 +172,21 @@ CHAPTERS: Final = (
         "Each method learns all demonstrations but one, runs from the start of the one left out, and is "
         "compared with it.",
         (
-            Measure("frechet_m", "Frechet", "cm", 100.0, "Discrete Frechet distance from the one left out."),
+            Measure(
+                "frechet_m",
+                "Frechet",
+                "cm",
+                100.0,
+                "Discrete Frechet distance from the one left out.",
+                better="least",
+            ),
             Measure(
                 "dtw_m",
                 "DTW",
                 "cm",
                 100.0,
                 "Dynamic time warping distance from the one left out, by the run's samples.",
+                better="least",
             ),
             Measure(
                 "end_error_m",

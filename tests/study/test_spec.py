@@ -32,6 +32,8 @@ from tests.study.makers import PARTS, small
         ('methods = ["lstm-5"]', "methods: There is no method 'lstm-5'. Choose gc"),
         ("methods = []", "methods cannot be []. Give a list of names"),
         ('methods = ["gc", "gc"]', "methods names 'gc' twice"),
+        ("seed = 1\nsection = 1\nstart = 2", "there are no keys 'section', 'start'. Possible are: title"),
+        ('starts = 0\nmoves = 0\nleave_one_out = false\nmethods = ["lstm-5"]', "There is no method 'lstm-5'"),
         ("data_sets = [5]", "data_sets cannot be 5. Give built-in skills, patterns"),
         ('data_sets = [{ name = "one" }]', "Give both a name and files"),
         (
@@ -65,6 +67,13 @@ def test_data_that_there_are_not_are_named(data_sets: str, said: str, tmp_path: 
         open_data(small(tmp_path, f"data_sets = {data_sets}"))
 
     assert said in str(found.value)
+
+
+def test_data_that_are_not_named_at_all_are_missed(tmp_path: Path) -> None:
+    with pytest.raises(
+        BadSpecError, match=r"the key data_sets is missing. Give it a list of built-in skills"
+    ):
+        small(tmp_path, without='data_sets = ["bent.csv"]')
 
 
 def test_a_file_that_is_nowhere_is_told_which_studies_there_are() -> None:

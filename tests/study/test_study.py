@@ -24,6 +24,7 @@ from app.study.experiments import Job, work
 from app.study.keeping import Shelf
 from app.study.measures import Row, shape_change
 from app.study.parts import Part, versions
+from app.study.report import write_report
 from app.study.running import Outcome, run_study
 from app.study.sources import data_set
 from app.study.spec import Plan
@@ -102,12 +103,13 @@ def test_a_study_killed_in_the_middle_goes_on_and_processes_make_the_same_table(
     assert table(tmp_path) == table(folder / "out")
 
 
-def test_what_is_finished_is_not_done_again(folder: Path, done: Outcome) -> None:
+def test_what_is_finished_is_not_done_again(folder: Path, done: Outcome, tmp_path: Path) -> None:
     before = parts_in(folder / "out")
     again = run_study(done.spec, folder / "out", nobody())
 
     assert again.skipped == len(again.found) == PARTS
     assert parts_in(folder / "out") == before
+    assert write_report(again, tmp_path).read_bytes() == write_report(done, folder / "out").read_bytes()
 
 
 def test_only_what_a_change_concerns_is_done_again(folder: Path, done: Outcome) -> None:
@@ -223,15 +225,16 @@ def test_a_worker_with_other_versions_is_not_believed(done: Outcome) -> None:
         executors.calmly(job, done.data[0])
 
 
-def test_a_scheduler_that_is_not_there_is_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_scheduler_that_is_not_there_is_a_sentence_without_a_bar(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     pytest.importorskip("distributed")
     monkeypatch.setattr(executors, "PATIENCE", 0.2)
 
-    with (
-        pytest.raises(ClusterError, match="Start it with 'dask scheduler'"),
-        executors.cluster("tcp://127.0.0.1:9"),
-    ):
-        pass
+    with pytest.raises(ClusterError, match="Start it with 'dask scheduler'"):
+        run_study(small(tmp_path), tmp_path, executors.cluster("tcp://127.0.0.1:9"))
+
+    assert "study" not in capsys.readouterr().err
 
 
 def test_the_command_says_one_json_value_and_writes_a_page_that_needs_no_network(
@@ -251,6 +254,7 @@ def test_the_command_says_one_json_value_and_writes_a_page_that_needs_no_network
     assert page.count("$&lt;b&gt;\\q$") == 3 + 5  # in tables, and above each drawing
     assert "gmr-150 cannot learn these demonstrations" in page
     assert page.count("<svg") == 5
+    assert "Random starts, Frechet: least for gc " in page
     assert all(each not in page for each in ("src=", "<link", "@import", "url(http"))
 
 
