@@ -14,7 +14,7 @@ from app.linepull import LinePull
 from app.model import Model
 from app.outlining import Outlining
 from app.progress import Progress
-from app.proposal import DISCARDED, FIRST_ANSWER, LOST, Choice, Pending, Proposal
+from app.proposal import CHOOSE_ONE, DISCARDED, FIRST_ANSWER, LOST, UNDO, Choice, Pending, Proposal
 from app.replaying import Replaying
 from app.stage import Stage
 from app.store import Store
@@ -74,7 +74,7 @@ class Amending:
     @property
     def undo_name(self) -> str | None:
         """What undo would take back before anything else."""
-        return None if self._pending is None else self._pending.proposal.choices[0].name
+        return None if self._pending is None else UNDO
 
     @property
     def proposal(self) -> Proposal | None:
@@ -139,7 +139,7 @@ class Amending:
     def offer(self, proposal: Proposal) -> Said:
         """Let a correction wait for its answer, and show what it would do."""
         self._pending = Pending(proposal)
-        return f"{proposal.sentence} Choose what becomes of it.", False
+        return CHOOSE_ONE, False
 
     def preview(self, choice: int) -> None:
         """Show what another choice would do."""

@@ -53,6 +53,12 @@ def words(bite: Bite, model: Model) -> str:
     return f"It holds {which} back, by up to {bending.length(bite.depth)}."
 
 
+def where(rule: Constraint) -> str:
+    """Say along which part of the way a rule holds."""
+    parts = 100.0 * rule.parts[rule.active]
+    return f"From {parts.min():.0f} % to {parts.max():.0f} % of the way." if len(parts) else ""
+
+
 def shown(model: Model, rule: int | None) -> Constraint | None:
     """Give a rule where the landmarks stand, for its arrows; -1: the newest; None where there is none."""
     rules = model.source.rules

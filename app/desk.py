@@ -66,7 +66,7 @@ class Desk:
             dragging=self.amending.holds if self._held is None else self._held.node,
             correction=None if self._held is None else self._held.correction,
             undo_name=self.amending.undo_name or self.store.undo_name,
-            redo_name=self.store.redo_name,
+            redo_name=None if self.amending.waits else self.store.redo_name,
             message=message,
             warning=warning,
             offer=self._offering.offer,
@@ -126,7 +126,7 @@ class Desk:
     def redo(self, now: float) -> None:
         """Do the last undone step again."""
         self.let_go(now)
-        name = self.store.redo()
+        name = None if self.amending.waits else self.store.redo()
         self.say("There is nothing to redo." if name is None else f"Done again: {name}.")
 
     def open(self, document: Document, now: float) -> None:

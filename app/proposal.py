@@ -15,8 +15,11 @@ from gc_core import GcError
 
 DISCARD: Final = "Discard"
 """What every proposal offers last."""
+UNDO: Final = "discard the correction"
+"""What undo does while the question is open."""
 DISCARDED: Final = "Discarded. Everything is as it was."
 FIRST_ANSWER: Final = "First say what becomes of the correction, above the tabs; Undo discards it."
+CHOOSE_ONE: Final = "Choose what becomes of the correction, above the tabs."
 LOST: Final = "What was corrected is not there any more, so the correction was not kept."
 
 

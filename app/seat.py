@@ -120,7 +120,7 @@ class Seat:
 
     def answer(self, choice: int | None) -> None:
         """See `Actions.answer`."""
-        self._post(lambda desk, now: desk.amend(lambda a: a.answer(choice, now)))
+        self._post(lambda desk, now: answer(desk, choice, now))
 
     def try_physics(self) -> None:
         """See `Actions.try_physics`."""
@@ -269,3 +269,11 @@ def _done(
     """Do something with a skill of a list, and say what became of which."""
     titles = [summary.title for summary in listed(1, [code])]
     return f"{titles[0] if titles else 'It'} {words}." if do(code) else "This skill is gone already."
+
+
+def answer(desk: Desk, choice: int | None, now: float) -> None:
+    """Do what becomes of the correction that waits; a rule that is made shows its arrows."""
+    known = len(desk.store.document.rules)
+    desk.amend(lambda amending: amending.answer(choice, now))
+    if len(desk.store.document.rules) > known:
+        desk.look(rule=-1)

@@ -56,7 +56,7 @@ class HeaderPanel:
         """Show the skill's name and what undo and redo would do."""
         self._title.draw(state)
         self._menu.draw(state)
-        undo, redo = state.undo_name, state.redo_name
-        assign(self._undo, label=f"Undo: {undo}" if undo else "Undo", disabled=undo is None)
-        assign(self._redo, label=f"Redo: {redo}" if redo else "Redo", visible=redo is not None)
+        undo, redo = words.short(state.undo_name or ""), words.short(state.redo_name or "")
+        assign(self._undo, label=f"Undo: {undo}" if undo else "Undo", disabled=not undo)
+        assign(self._redo, label=f"Redo: {redo}" if redo else "Redo", visible=bool(redo))
         assign(self._saved, content=SAVED[state.saved])

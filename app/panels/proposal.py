@@ -27,9 +27,7 @@ class ProposalPanel:
         with self._box:
             self._said = gui.add_html("")
             self._answers = gui.add_button_group("", (DISCARD,))
-            self._looks = gui.add_button_group(
-                "Show it", (SHOWN.strip(),), visible=False, hint="What is shown as if it were chosen already."
-            )
+            self._looks = gui.add_button_group("Show it", (SHOWN.strip(),), visible=False)
         on_choice(self._answers, self._answer)
         on_choice(self._looks, actions.preview)
         self._changed, self._effect = Changed(), Changed()

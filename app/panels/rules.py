@@ -21,6 +21,7 @@ HOW: Final = (
     "refinement). A magenta line: you are asked whether its correction is a rule for all runs "
     "(constraint-based refinement), or one more demonstration."
 )
+ARROWS: Final = "Arrows: how far each place of the run was corrected (V)."
 DELETE: Final = "Delete"
 SHOW, HIDE = "Show its arrows", "Hide its arrows"
 AMBER: Final = "light-dark(#b45309,#fbbf24)"
@@ -68,7 +69,7 @@ def overview(state: State) -> str:
         words.note(words.escape(one.sentence()), strong=True, color=AMBER)
         for one in state.model.contradictions
     ]
-    return words.note(said, strong=True) + "".join(wrong)
+    return words.note(said, strong=True) + "".join(wrong) + (words.note(ARROWS) if rules else "")
 
 
 class RuleRow:
@@ -84,9 +85,7 @@ class RuleRow:
             self._on = self._add_on(gui)
             self._name = self._add_name(gui)
             self._said = gui.add_html("")
-            self._group = gui.add_button_group(
-                "", (SHOW, DELETE), hint="The arrows say how far each place of the run was corrected (V)."
-            )
+            self._group = gui.add_button_group("", (SHOW, DELETE))
             on_choice(self._group, lambda place: (self._show_arrows, self._delete)[place]())
 
     def show(self, visible: bool) -> None:
@@ -100,11 +99,12 @@ class RuleRow:
         self._seen = state.view.rule in {self._index, self._index - len(rules)}
         self._on.draw(state)
         self._name.draw(state)
-        assign(self._folder, label=rule.name if rule.enabled else f"{rule.name} · off")
+        assign(self._folder, label=words.short(rule.name) + ("" if rule.enabled else " · off"))
         assign(self._group, options=(HIDE if self._seen else SHOW, DELETE))
         if (state.dragging is None or state.correction) and self._changed(rule, state.model.runs):
             bite = biting.bites(state.model)[self._index]
-            assign(self._said, content=words.note(words.escape(biting.words(bite, state.model))))
+            said = f"{biting.where(rule.constraint)} {biting.words(bite, state.model)}"
+            assign(self._said, content=words.note(words.escape(said)))
 
     def _add_on(self, gui: viser.GuiApi) -> Binding[bool]:
         def write(on: bool) -> None:
@@ -113,7 +113,7 @@ class RuleRow:
                 self._actions.edit(partial(_at, rule, enable), f"switch {rule.name} {'on' if on else 'off'}")
 
         return Binding(
-            gui.add_checkbox("On", True, hint="Without the tick all runs are as if it were not there."),
+            gui.add_checkbox("On", True),
             read=lambda state: state.document.rules[self._index].enabled,
             write=write,
             accept=anything,

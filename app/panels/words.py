@@ -27,6 +27,8 @@ CRUMPLED: Final = (
 
 AMBER: Final = "light-dark(#b45309,#fbbf24)"
 """Of a warning, on a light and on a dark page."""
+LONGEST: Final = 30
+"""Letters that fit into a title of the panel, which is 20 em wide."""
 CHOSEN: Final = "✓ "
 """Before the chosen option: viser shows no chosen button in a row."""
 
@@ -34,6 +36,11 @@ CHOSEN: Final = "✓ "
 def marked(options: Sequence[str], chosen: int) -> tuple[str, ...]:
     """Put a tick before the chosen option; any other number chooses none."""
     return tuple(CHOSEN + option if i == chosen else option for i, option in enumerate(options))
+
+
+def short(text: str, most: int = LONGEST) -> str:
+    """Shorten a text for a line of its own: its beginning, and an ellipsis."""
+    return text if len(text) <= most else f"{text[: most - 1].rstrip()}…"
 
 
 def escape(text: str) -> str:

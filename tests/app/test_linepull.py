@@ -13,7 +13,9 @@ from app.desk import Desk
 from app.document import FloatArray
 from app.linepull import LinePull
 from app.model import learn
+from app.panels.proposal import effect
 from app.proposal import FIRST_ANSWER
+from app.seat import answer
 from gc_core import same_content
 from tests.app.makers import Mouse, demonstration, desk_of, place_of, taught
 
@@ -111,7 +113,8 @@ def test_a_connection_lost_in_mid_pull_leaves_nothing_half_applied(
 def test_undo_discards_what_was_pulled_and_nothing_else(node: str, desk: Desk, mouse: Mouse) -> None:
     before = desk.store.document
     mouse.pull(node, BY, kept=False)
-    assert desk.state().undo_name is not None
+    asked = desk.state()
+    assert (asked.undo_name, asked.redo_name) == ("discard the correction", None)
     desk.undo(mouse.now)
 
     assert desk.store.document is before
@@ -282,3 +285,22 @@ def test_numbers_that_make_no_sense_move_no_line(by: tuple[float, ...], desk: De
     desk.leading.move_line(LINES[0], 0.5, np.array(by), mouse.now)
 
     assert desk.state().proposal is None
+
+
+def test_what_teaching_a_pulled_run_changes_is_said_in_centimetres_though_runs_get_other_lengths(
+    desk: Desk, mouse: Mouse
+) -> None:
+    mouse.pull(LINES[1], BY, kept=False)
+    desk.amending.preview(1)
+    state = desk.state()
+
+    assert state.proposal is not None
+    assert "1 of 1 run changes, by up to" in effect(state.proposal, state)
+
+
+def test_a_rule_that_is_made_shows_its_arrows(desk: Desk, mouse: Mouse) -> None:
+    desk.look(rule=None)
+    mouse.pull(LINES[1], BY, kept=False)
+    answer(desk, 0, mouse.now)
+
+    assert desk.view.rule == -1

@@ -384,7 +384,9 @@ def test_a_rule_is_switched_off_and_on_and_says_what_it_does(bench: Bench) -> No
     state = state_of(taught())
     run = np.array(state.model.runs[0].reproduction.positions)
     lower = run - [0.0, 0.0, 0.05] * np.sin(np.linspace(0, np.pi, len(run)))[:, None]
-    document = edits.add_rule(state.document, Constraint.from_correction(run, lower), "Low")
+    document = edits.add_rule(
+        state.document, Constraint.from_correction(run, lower), "Low" + 20 * " and lower"
+    )
     bench.draw(state_of(document, state.model))
     held = bench.client.text()
     bench.client.set_gui("On", False)
@@ -395,7 +397,8 @@ def test_a_rule_is_switched_off_and_on_and_says_what_it_does(bench: Bench) -> No
     on = bench.edited(off)
 
     assert ([r.enabled for r in off.rules], [r.enabled for r in on.rules]) == ([False], [True])
-    assert "Low · off" in labels
+    assert f"{document.rules[0].name[:29]}… · off" in labels
+    assert "% of the way. It holds" in held
     assert "It holds the run back, by up to 5.0 cm." in held
     assert "It is off" in bench.client.text()
 
