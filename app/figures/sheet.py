@@ -24,6 +24,7 @@ from matplotlib.ticker import MaxNLocator
 from app.arm.shapes import Shape, pose_of
 from app.document import FloatArray
 from app.figures.catalogue import Form
+from app.figures.views import letters_of
 from gc_core import GeneralizedCylinder
 from gc_core.arrays import evenly
 
@@ -200,14 +201,13 @@ def scale_bar(where: Space, length: float, *, triad: bool = True) -> None:
     words = f"{100 * length:.0f} cm"
     where.axes.annotate(words, (right - 50.0 * length, below), fontsize=8, **under)
     if triad:
-        origin = np.array([left + 0.09 * span, below - 0.05 * span])
-        for name, axis in zip("xyz", where.basis[:2].T, strict=True):
-            if np.linalg.norm(axis) < SHORT:
-                continue
-            tip = origin + 0.07 * span * axis
+        origin = np.array([left + 0.09 * span, below - 0.08 * span])
+        axes = where.basis[:2].T
+        seen = np.flatnonzero(np.linalg.norm(axes, axis=1) >= SHORT)
+        for number, letter in zip(seen, letters_of(axes[seen]), strict=True):
+            tip, at = origin + 0.07 * span * axes[number], origin + 0.07 * span * letter
             where.axes.plot(*np.stack([origin, tip]).T, linewidth=0.9, **ink)
-            at = origin + 1.3 * (tip - origin)
-            where.axes.annotate(name, at, fontsize=7, ha="center", va="center", **beside)
+            where.axes.annotate("xyz"[number], at, fontsize=7, ha="center", va="center", **beside)
 
 
 def bar_for(cylinder: GeneralizedCylinder) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from typing import Final
 
 import numpy as np
@@ -14,6 +15,8 @@ LOWEST, HIGHEST, TURN = 18.0, 46.0, 15.0
 """Views from above, and how far they are turned from straight across the motion [degrees]."""
 STEEP: Final = 0.3
 """Of a plane's normal: with less of it upwards, the plane is upright [-]."""
+BEYOND, ROOM = 1.45, 0.9
+"""Where the letter of an axis stands, and how far from the next letter, by the length of an axis [-]."""
 
 
 def seen_across(cylinder: GeneralizedCylinder) -> FloatArray:
@@ -41,3 +44,17 @@ def seen_from(azimuth: float, elevation: float) -> FloatArray:
     towards = np.array([np.cos(up) * np.cos(turn), np.cos(up) * np.sin(turn), np.sin(up)])
     right = np.array([-np.sin(turn), np.cos(turn), 0.0])
     return np.stack([right, np.cross(towards, right), towards])
+
+
+def letters_of(axes: FloatArray) -> FloatArray:
+    """Find places (K, 2) for the letters of axes (K, 2) from one origin: beyond the tips, and apart [-]."""
+    places = BEYOND * axes
+    for one, other in combinations(range(len(places)), 2):
+        between = places[other] - places[one]
+        distance = float(np.hypot(*between))
+        if distance < ROOM:
+            # Of two axes that are seen as one, the letters stand on either side.
+            away = between / distance if distance > 0.0 else np.array([-axes[one, 1], axes[one, 0]])
+            places[one] -= 0.5 * (ROOM - distance) * away
+            places[other] += 0.5 * (ROOM - distance) * away
+    return places

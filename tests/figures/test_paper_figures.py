@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 from importlib import import_module
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from app.edits import skill_of
 from app.figures import FIGURES, NothingToDrawError, paper_figure, sheet
 from app.figures.constraint import pressed_run
 from app.figures.subject import Subject
+from app.figures.views import letters_of
 from app.resources import static_folder
 from app.skills import load_skill
 from gc_core import Demonstration
@@ -133,6 +135,14 @@ def test_a_run_is_pressed_down_above_another_however_few_starts_there_are(count:
     pressed = pressed_run(Subject(replace(document, starts=document.starts[:count])))
 
     assert pressed.upper.positions[0, 2] > pressed.lower.positions[0, 2]
+
+
+def test_letters_of_axes_that_are_seen_as_one_stand_apart() -> None:
+    axes = np.array([[0.7, -0.2], [0.7, -0.2], [0.0, 0.95]])
+
+    for given in (axes, axes[::-1], np.array([[0.63, -0.24], [0.78, 0.2], [0.0, 0.95]])):
+        letters = letters_of(given)
+        assert min(np.linalg.norm(a - b) for a, b in combinations(letters, 2)) > 0.5
 
 
 def test_frenet_frames_of_a_straight_motion_are_not_said_to_turn() -> None:
