@@ -73,6 +73,11 @@ class Compared:
         """Whether a model is of the same skill, however it was edited since."""
         return any(one is other for one in model.demonstrations for other in self.source.demonstrations)
 
+    @property
+    def drawn(self) -> bool:
+        """Whether there are runs that can be drawn in the scene."""
+        return self.found is not None and not self.outdated
+
     def holds(self, model: Model, view: View) -> bool:
         """Whether the same methods would give the same on a model, however it is looked at."""
         one, other, heeded = self.source.source, model.source, conditions_of(model, view)

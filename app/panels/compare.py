@@ -16,14 +16,6 @@ ABOUT: Final = (
     "Other ways of learning, given the same demonstrations and begun from the same starts: what becomes of "
     "starts that lie apart, and how well is the motion kept? The tube is always among them."
 )
-HINTS: Final[Mapping[str, str]] = {
-    "dmp-5": "Dynamic movement primitive: a spring to the goal and a learned push, of 5 weights an axis.",
-    "dmp-10": "Dynamic movement primitive with 10 weights an axis.",
-    "gmr-5": "Gaussian mixture regression over time (GMM/GMR), of 5 Gaussians.",
-    "gmr-10": "Gaussian mixture regression over time (GMM/GMR), of 10 Gaussians.",
-    "promp-10": "Probabilistic movement primitive: a Gaussian over motions, bent to its start.",
-    "ramp": "The mean of what was shown, bent to its start: the least a method must beat.",
-}
 STARTS: Final[Mapping[str, int]] = {
     "3 in the first slice": 3,
     "5 in the first slice": 5,
@@ -78,7 +70,7 @@ class ComparePanel:
 
     def _tick(self, gui: viser.GuiApi, name: str) -> Binding[bool]:
         return Binding(
-            gui.add_checkbox(LOOKS[name].label, False, hint=HINTS[name]),
+            gui.add_checkbox(LOOKS[name].label, False, hint=compare_words.HINTS[name]),
             read=lambda state: name in state.view.methods,
             write=partial(self._choose, name),
             accept=anything,

@@ -12,6 +12,14 @@ CLEARLY: Final = 0.8
 """The best number stands out where it is this part of the second best, or less [-]."""
 WAITS: Final = "…"
 NONE: Final = "–"
+HINTS: Final[Mapping[str, str]] = {
+    "dmp-5": "Dynamic movement primitive: a spring to the goal and a learned push, of 5 weights an axis.",
+    "dmp-10": "Dynamic movement primitive with 10 weights an axis.",
+    "gmr-5": "Gaussian mixture regression over time (GMM/GMR), of 5 Gaussians.",
+    "gmr-10": "Gaussian mixture regression over time (GMM/GMR), of 10 Gaussians.",
+    "promp-10": "Probabilistic movement primitive: a Gaussian over motions, bent to its start.",
+    "ramp": "The mean of what was shown, bent to its start: the least a method must beat.",
+}
 ROW: Final = 1.6
 """How high a line is [em]; what is wrong with a method fills its column and makes no line higher."""
 PAPER: Final = "background:#f4f5f7;color:#22262c;color-scheme:light"
@@ -122,7 +130,7 @@ def table(known: Compared) -> str:
     rows = {} if known.found is None else {row.method: row for row in known.found.rows}
     around = any(row.contacts is not None for row in rows.values())
     lines = (*LINES[:5], *(AMONG_THINGS if around else ()), *LINES[5:])
-    head = "".join(f"<th>{_swatch(LOOKS[name])}<br>{LOOKS[name].label}</th>" for name in known.names)
+    head = "".join(_head(name) for name in known.names)
     body = "".join(_line(line, known, rows, 0 if i else len(lines)) for i, line in enumerate(lines))
     style = (
         "<style>.gc-compare{border-collapse:collapse;width:100%;font-size:0.7rem;line-height:1.3;"
@@ -136,6 +144,11 @@ def table(known: Compared) -> str:
         f'{style}<div style="padding:0 0.5rem 0.5rem;overflow-x:auto">'
         f'<table class="gc-compare"><tr><th></th>{head}</tr>{body}</table></div>'
     )
+
+
+def _head(name: str) -> str:
+    hint = words.escape(HINTS.get(name, "The tube (generalized cylinder)."))
+    return f'<th title="{hint}">{_swatch(LOOKS[name])}<br>{LOOKS[name].label}</th>'
 
 
 def _line(line: Line, known: Compared, rows: Mapping[str, Row], height: int) -> str:

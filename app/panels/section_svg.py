@@ -18,6 +18,12 @@ BAR_LENGTHS: Final = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
 """The scale bar has one of these lengths [m]."""
 ZOOMS: Final = (1, 2, 4, 8)
 """How often a slice is enlarged; few steps, so that a change of size is seen as such."""
+LEVEL: Final = 0.05
+"""A slice that leans less than this from the level has no up: sine of the angle [-]."""
+UP: Final = (
+    '<path d="M12 32V12M8 17L12 11L16 17" fill="none" stroke="currentColor" stroke-width="1.2"/>'
+    '<text x="20" y="22" font-size="11" fill="currentColor">up</text>'
+)
 
 
 def section_svg(cylinder: GeneralizedCylinder, station: int, reproduction: Reproduction | None) -> str:
@@ -41,16 +47,18 @@ def section_svg(cylinder: GeneralizedCylinder, station: int, reproduction: Repro
     station = int(np.clip(station, 0, len(cylinder.directrix) - 1))
     zoom = _zoom(cylinder, station)
     scale = zoom * _scale(cylinder)
-    boundary = _pixels(_boundary(cylinder, station), scale)
-    points = _pixels(_local(cylinder, station, cylinder.effective_points[station]), scale)
+    turn, leans = upright(cylinder.frames[station])
+    boundary = _pixels(_boundary(cylinder, station), scale * turn)
+    points = _pixels(_local(cylinder, station, cylinder.effective_points[station]), scale * turn)
     parts = [
         _open(station, len(cylinder.directrix)),
         f'<polygon points="{_joined(boundary)}" fill="#8a8f98" fill-opacity="0.22" stroke="#8a8f98" '
         'stroke-width="1.5"/>',
-        *_ray(cylinder, station, reproduction, scale),
+        *_ray(cylinder, station, reproduction, scale * turn),
         *(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.2" style="fill:{RED}"/>' for x, y in points.tolist()),
         _cross(),
         _bar(scale, zoom),
+        UP if leans else "",
         "</svg>",
     ]
     return "".join(parts)
@@ -97,8 +105,27 @@ def _zoom(cylinder: GeneralizedCylinder, station: int) -> int:
     return max(zoom for zoom in ZOOMS if zoom * share <= 1.0)
 
 
-def _pixels(local: FloatArray, scale: float) -> FloatArray:
-    return local * [scale, -scale] + [0.5 * WIDTH, 0.5 * (HEIGHT - FOOT)]
+def upright(frame: FloatArray) -> tuple[FloatArray, bool]:
+    """Turn a slice so that up is up, as one sees it who goes along the motion.
+
+    Parameters
+    ----------
+    frame : (3, 3) array
+        Columns are tangent, normal, binormal.
+
+    Returns
+    -------
+    tuple of (2, 2) array and bool
+        What turns coordinates along normal and binormal to those to the right and upwards; whether any
+        direction in the slice leads upwards: in a level one the normal is drawn upwards.
+    """
+    steep = float(np.hypot(*frame[2, 1:]))
+    up = frame[2, 1:] / steep if steep > LEVEL else np.array([1.0, 0.0])
+    return np.stack([[-up[1], up[0]], up]), steep > LEVEL
+
+
+def _pixels(local: FloatArray, turn: FloatArray) -> FloatArray:
+    return local @ turn.T * [1.0, -1.0] + [0.5 * WIDTH, 0.5 * (HEIGHT - FOOT)]
 
 
 def _index(reproduction: Reproduction, station: int) -> int | None:
@@ -107,14 +134,14 @@ def _index(reproduction: Reproduction, station: int) -> int | None:
 
 
 def _ray(
-    cylinder: GeneralizedCylinder, station: int, reproduction: Reproduction | None, scale: float
+    cylinder: GeneralizedCylinder, station: int, reproduction: Reproduction | None, turn: FloatArray
 ) -> list[str]:
     """From the centre through the run's point to the edge."""
     index = None if reproduction is None else _index(reproduction, station)
     if reproduction is None or index is None:
         return []
     point = _local(cylinder, station, reproduction.positions[index][None])
-    (px, py), (ex, ey) = _pixels(np.concatenate([point, _edge(cylinder, station, point)]), scale).tolist()
+    (px, py), (ex, ey) = _pixels(np.concatenate([point, _edge(cylinder, station, point)]), turn).tolist()
     cx, cy = 0.5 * WIDTH, 0.5 * (HEIGHT - FOOT)
     line = f'<line x1="{cx:.1f}" y1="{cy:.1f}" style="stroke:{MAGENTA}" '
     return [

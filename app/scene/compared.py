@@ -31,7 +31,7 @@ class ComparedRuns:
     def draw(self, state: State) -> None:
         """Draw the runs of the methods that are chosen."""
         known = state.compared if state.view.show_compared else None
-        runs = {} if known is None or known.found is None or known.outdated else known.found.runs
+        runs = known.found.runs if known is not None and known.drawn and known.found is not None else {}
         chosen = (TUBE, *state.view.methods)
         if (runs, chosen) == self._drawn:
             return

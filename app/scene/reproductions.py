@@ -43,8 +43,8 @@ class Reproductions:
         self._paths: list[_Path] = []
 
     def draw(self, state: State) -> None:
-        """Draw every run of the model."""
-        runs = state.model.runs if state.view.show_reproductions else ()
+        """Draw every run of the model; in Compare only those that are compared are seen."""
+        runs = state.model.runs if state.view.show_reproductions and not _compares(state) else ()
         while len(self._paths) < len(runs):
             name = f"/reproductions/{len(self._paths)}"
             self._paths.append(_Path(self._api, name, self._actions, self._clock))
@@ -149,6 +149,11 @@ class _Start:
         if not self._bound:
             bind_pull(handle, self._actions, self._clock, ball=True)
             self._bound = True
+
+
+def _compares(state: State) -> bool:
+    known = state.compared
+    return state.view.tab == "Compare" and state.view.show_compared and known is not None and known.drawn
 
 
 def hides(hand: FloatArray, start: FloatArray, camera: FloatArray, radius: float) -> bool:

@@ -43,7 +43,8 @@ FORMER_OPACITY: Final = 0.12
 THIN: Final = 2.0
 THICK: Final = 4.0
 DOUBLE: Final = 8.0
-COMPARED: Final = 3.0
+COMPARED: Final = 5.0
+"""Wider than the middle line, whose blue is near to that of a method."""
 HATCHED: Final = 11.0
 """Wider than every line that it may lie over."""
 

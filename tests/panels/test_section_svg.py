@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from app.panels.section_svg import HEIGHT, WIDTH, ratio_at, section_svg, size
+from app.panels.section_svg import HEIGHT, WIDTH, ratio_at, section_svg, size, upright
 from app.player import station_at
 from gc_core import encode, reproduce
 from tests.panels.desk import state_of, taught
@@ -98,3 +98,13 @@ def test_a_station_before_a_late_start_has_no_ratio(model) -> None:
 
     assert ratio_at(late, 20) is None
     assert ratio_at(late, 150) == pytest.approx(0.0, abs=0.05)
+
+
+def test_up_in_the_room_is_up_in_the_slice(model) -> None:
+    cylinder = model.cylinder
+    for frame in cylinder.frames[::20]:
+        turn, leans = upright(frame)
+        up = turn @ frame[:, 1:].T @ [0.0, 0.0, 1.0]
+
+        assert not leans or (up[1] > 0.0 and abs(up[0]) < 1e-12)
+        np.testing.assert_allclose(turn @ turn.T, np.eye(2), atol=1e-12)

@@ -62,3 +62,12 @@ def test_what_is_compared_already_costs_nothing_to_draw(stage: Stage) -> None:
     stage.draw(compared())
 
     assert not stage.sent()
+
+
+def test_in_compare_the_runs_of_the_skill_make_room_for_those_that_are_compared(stage: Stage) -> None:
+    seen = []
+    for tab in ("Compare", "Teach"):
+        stage.draw(replace(compared(), view=replace(VIEW, tab=tab)))
+        seen.append([shown(stage, name) for name in ("/reproductions/0", "/compared/gc/0")])
+
+    assert seen == [[False, True], [True, True]]
