@@ -34,11 +34,11 @@ def serve(
         files: A skill (.gcteach) or recordings to open (.mat .csv .npy .npz .h5 .hdf5).
         host: Address to listen on; by default only this computer can connect.
         port: Port to listen on.
-        library: Database of the saved skills, for instance sqlite:///skills.db.
+        library: Where skills are saved: a file (skills.db, sqlite:///skills.db) or postgresql://….
         open: Open the page in the browser of this computer.
     """
     # Only this command needs viser, placo and the database, which take a second to import.
-    from app.library import default_url  # noqa: PLC0415
+    from app.library import default_url, told  # noqa: PLC0415
     from app.pauses import avoid_pauses  # noqa: PLC0415
     from app.server import Options, Server, first_document, stop_signal  # noqa: PLC0415
 
@@ -46,10 +46,11 @@ def serve(
     logging.getLogger("app").setLevel(logging.INFO)
     stop = stop_signal()  # first, so that a signal while starting stops cleanly, too
     first = first_document(files)
-    server = Server(Options(host, port, library or default_url()), first)
+    kept = library or default_url()
+    server = Server(Options(host, port, kept), first)
     avoid_pauses()
     address = f"http://{'127.0.0.1' if host == '0.0.0.0' else host}:{server.port}/"
-    print(f"gc-teach is ready: {address}   (Ctrl+C saves and stops)", flush=True)
+    print(f"gc-teach is ready: {address}   (Ctrl+C saves and stops)\n{told(kept)}", flush=True)
     if open:
         webbrowser.open(address)
     stop.wait()

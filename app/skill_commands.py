@@ -63,7 +63,7 @@ def list_skills(*, library: str = "", json: bool = False) -> None:
     """List the saved skills, the last saved first, then the built-in ones.
 
     Args:
-        library: Database of the saved skills, for instance sqlite:///skills.db.
+        library: Where skills are saved: a file (skills.db, sqlite:///skills.db) or postgresql://….
         json: Print one JSON value instead of words.
     """
     with _opened(library) as shelf:
@@ -89,7 +89,7 @@ def import_skill(
         file: A skill (.gcteach) or recordings (.mat .csv .npy .npz .h5 .hdf5).
         name: What to call it; by default as in the file, or as the file.
         units: The unit of length of recordings.
-        library: Database of the saved skills, for instance sqlite:///skills.db.
+        library: Where skills are saved: a file (skills.db, sqlite:///skills.db) or postgresql://….
         json: Print one JSON value instead of words.
     """
     document = _read(file, units)
@@ -110,7 +110,7 @@ def export_skill(name: tyro.conf.Positional[str], *, to: Path, library: str = ""
         name: Title or code of a saved skill, or name of a built-in one.
         to: Where to write it: .gcteach (all of it), .html (a page that plays), .csv .mat .npz .h5
             (demonstrations), .yaml .json (a run for a real Jaco), .glb (the tube), .svg .png (a figure), .py.
-        library: Database of the saved skills, for instance sqlite:///skills.db.
+        library: Where skills are saved: a file (skills.db, sqlite:///skills.db) or postgresql://….
         json: Print one JSON value instead of words.
     """
     format_of(to.name)
@@ -127,7 +127,7 @@ def show(name: tyro.conf.Positional[str], *, library: str = "", json: bool = Fal
 
     Args:
         name: Title or code of a saved skill, or name of a built-in one.
-        library: Database of the saved skills, for instance sqlite:///skills.db.
+        library: Where skills are saved: a file (skills.db, sqlite:///skills.db) or postgresql://….
         json: Print one JSON value instead of words.
     """
     entry, document = _named(name, library)
@@ -145,7 +145,7 @@ def delete(name: tyro.conf.Positional[str], *, library: str = "", json: bool = F
 
     Args:
         name: Its title or code.
-        library: Database of the saved skills, for instance sqlite:///skills.db.
+        library: Where skills are saved: a file (skills.db, sqlite:///skills.db) or postgresql://….
         json: Print one JSON value instead of words.
     """
     with _opened(library) as shelf:

@@ -8,6 +8,7 @@ saves, never an older one.
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 from typing import Any, Final
 
@@ -16,7 +17,7 @@ from sqlalchemy import URL, Connection, Engine, create_engine, event, make_url
 from sqlalchemy.exc import ArgumentError, DatabaseError, NoSuchModuleError, SQLAlchemyError
 from sqlalchemy.pool import ConnectionPoolEntry, StaticPool
 
-from app.library.errors import ForeignDatabaseError, LibraryError
+from app.library.errors import ForeignDatabaseError, LibraryError, cause_of
 from app.library.upgrade import prepare
 
 VARIABLE: Final = "GC_TEACH_LIBRARY"
@@ -28,8 +29,17 @@ LOCK: Final = 0x6C_74_65_61
 
 def default_url() -> str:
     """Say where skills are saved: ``GC_TEACH_LIBRARY``, else a file in the user's data folder."""
-    chosen = os.environ.get(VARIABLE, "")
-    return chosen or f"sqlite:///{user_data_path('gc-teach') / 'library.db'}"
+    return os.environ.get(VARIABLE, "") or _own_url()
+
+
+def told(url: str) -> str:
+    """Say where the skills of a library are kept, without its password; raises as `open_engine`."""
+    address = _address(url)
+    if address.get_backend_name() != "sqlite":
+        return f"Skills are kept in {address.render_as_string(hide_password=True)}."
+    if _in_memory(address):
+        return "Nothing will be kept: this library is in memory only."
+    return f"Skills are kept in {_path(address).absolute()}."
 
 
 def open_engine(url: str) -> Engine:
@@ -41,18 +51,13 @@ def open_engine(url: str) -> Engine:
         If the address cannot be understood or opened, or leads to another
         program's data; that is left as it is.
     """
-    try:
-        address = make_url(url)
-    except ArgumentError as error:
-        raise LibraryError(
-            f"{url!r} is no address of a library. Write one like sqlite:///my-skills.db."
-        ) from error
+    address = _address(url)
     where = address.render_as_string(hide_password=True)
     backend = address.get_backend_name()
     if backend not in ("sqlite", "postgresql"):
         raise LibraryError(f"{where}: a library is kept in SQLite or PostgreSQL, not in {backend}.")
     try:
-        engine = _sqlite(address.database) if backend == "sqlite" else _postgresql(address)
+        engine = _sqlite(address, own=url == _own_url()) if backend == "sqlite" else _postgresql(address)
         _prepare(engine, where)
     except (ImportError, NoSuchModuleError) as error:
         raise LibraryError(
@@ -62,10 +67,37 @@ def open_engine(url: str) -> Engine:
     except DatabaseError as error:
         if "not a database" in str(error.orig):
             raise ForeignDatabaseError(where, "is no database") from error
-        raise _cannot_open(where, str(error.orig)) from error
+        raise _cannot_open(address, error) from error
     except (SQLAlchemyError, OSError) as error:
-        raise _cannot_open(where, str(error)) from error
+        raise _cannot_open(address, error) from error
     return engine
+
+
+def _own_url() -> str:
+    return f"sqlite:///{user_data_path('gc-teach') / 'library.db'}"
+
+
+def _address(url: str) -> URL:
+    """Take a file's path as the address of an SQLite library."""
+    try:
+        plain = "://" not in url and url.strip() and not re.match(r"\w\w+:", url)
+        address = URL.create("sqlite", database=url) if plain else make_url(url)
+    except ArgumentError as error:
+        raise LibraryError(
+            f"{url!r} is no address of a library. Write one like sqlite:///my-skills.db."
+        ) from error
+    if address.get_backend_name() == "sqlite" and address.host:
+        file = f"{address.host}/{address.database}" if address.database else address.host
+        raise LibraryError(f"{url!r} names no file. Write three slashes: sqlite:///{file}.")
+    return address
+
+
+def _in_memory(address: URL) -> bool:
+    return address.database in (None, "", ":memory:")
+
+
+def _path(address: URL) -> Path:
+    return Path(address.database or "").expanduser()
 
 
 def _prepare(engine: Engine, where: str) -> None:
@@ -81,13 +113,17 @@ def _prepare(engine: Engine, where: str) -> None:
         raise
 
 
-def _sqlite(database: str | None) -> Engine:
-    if not database or database == ":memory:":
+def _sqlite(address: URL, *, own: bool) -> Engine:
+    """Open a file; only the folder of one's ``own`` is made, since another may be a slip of the pen."""
+    if _in_memory(address):
         options = {"check_same_thread": False, "isolation_level": None}
         engine = create_engine("sqlite://", poolclass=StaticPool, connect_args=options)
     else:
-        path = Path(database).expanduser()
-        path.parent.mkdir(parents=True, exist_ok=True)
+        path = _path(address)
+        if own:
+            path.parent.mkdir(parents=True, exist_ok=True)
+        elif not path.parent.is_dir():
+            raise FileNotFoundError(f"there is no folder {path.parent}")
         engine = create_engine(f"sqlite:///{path}", connect_args={"isolation_level": None, "timeout": 10.0})
     event.listen(engine, "connect", _set_up_connection)
     event.listen(engine, "begin", _begin)
@@ -119,8 +155,11 @@ def _begin(connection: Connection) -> None:
         connection.exec_driver_sql("BEGIN IMMEDIATE")
 
 
-def _cannot_open(where: str, problem: str) -> LibraryError:
+def _cannot_open(address: URL, error: Exception) -> LibraryError:
+    remedy = "Check the address, the password, and whether the server runs"
+    if address.get_backend_name() == "sqlite":
+        remedy = "Check that its folder is there and who may write in it"
     return LibraryError(
-        f"The library {where} cannot be opened: {problem}. Check the folder and who may write there, "
-        "or choose another place with --library."
+        f"The library {address.render_as_string(hide_password=True)} cannot be opened: {cause_of(error)}. "
+        f"{remedy}, or choose another place with --library."
     )

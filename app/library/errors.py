@@ -2,11 +2,24 @@
 
 from __future__ import annotations
 
+from typing import Any, cast
+
 from gc_core import GcError
 
 
 class LibraryError(GcError):
     """The library cannot be opened, read or written."""
+
+
+def cause_of(error: BaseException) -> str:
+    """Say in one line why a database did not do something, in the words of whoever refused."""
+    cause = getattr(error, "orig", None) or error
+    cause = cause.__cause__ or cause  # of "no connection": why there is none
+    first: Any = cause.args[0] if cause.args else ""
+    if isinstance(first, dict):  # PostgreSQL's own answer, by letters
+        first = cast("dict[str, str]", first).get("M", "")
+    said = getattr(cause, "strerror", None) or str(first) or type(cause).__name__
+    return said.splitlines()[0].strip().rstrip(".")
 
 
 class ForeignDatabaseError(LibraryError):

@@ -24,7 +24,7 @@ from app.document import Document
 from app.history import History, Version, begin
 from app.library.codec import Array, Known, decode_document, encode_document
 from app.library.connect import open_engine
-from app.library.errors import BadCodeError, LibraryError, UnreadableSkillError
+from app.library.errors import BadCodeError, LibraryError, UnreadableSkillError, cause_of
 from app.library.packing import ArrayNames, Packed, row_of
 from app.library.tables import arrays, insert_new, skills, steps, untouched, upsert, uses
 
@@ -277,9 +277,8 @@ class Library:
             with self._lock, self._engine.begin() as connection:
                 yield connection
         except SQLAlchemyError as error:
-            cause = getattr(error, "orig", None) or error
             raise LibraryError(
-                f"The skill could not be {done}: the library says {str(cause)!r}. "
+                f"The skill could not be {done}: the library says {cause_of(error)!r}. "
                 "Your work is still here; check the disk and try again."
             ) from error
 

@@ -26,7 +26,7 @@ def postgresql() -> Iterator[str]:
 @pytest.fixture
 def path(tmp_path: Path) -> Path:
     """Of an SQLite library that is not there yet."""
-    return tmp_path / "data" / "library.db"
+    return tmp_path / "library.db"
 
 
 @pytest.fixture(params=["sqlite", "postgresql"])

@@ -18,6 +18,7 @@ from app.library import (
     UnreadableSkillError,
     decode_document,
     default_url,
+    told,
 )
 from app.library.tables import SCHEMA, metadata
 from gc_core import same_content
@@ -147,7 +148,8 @@ def test_an_address_of_postgresql_without_a_driver_means_the_one_that_is_install
 
 
 def test_a_postgresql_that_is_not_there_is_a_sentence() -> None:
-    with pytest.raises(LibraryError, match=r"teacher:\*\*\*@127.0.0.1:1/skills cannot be opened"):
+    said = r"teacher:\*\*\*@127.0.0.1:1/skills cannot be opened: Connection refused. Check the address[^\n]*$"
+    with pytest.raises(LibraryError, match=said):
         Library("postgresql+pg8000://teacher:secret@127.0.0.1:1/skills")
 
 
@@ -218,14 +220,34 @@ def test_a_file_that_is_no_database_is_refused_and_unharmed(tmp_path: Path) -> N
 @pytest.mark.parametrize(
     ("url", "words"),
     [
-        ("my-skills.db", "no address"),
+        ("sqlite:my-skills.db", "no address"),
+        ("sqlite://my-skills.db", "sqlite:///my-skills.db"),
         ("mysql://localhost/skills", "not in mysql"),
-        ("sqlite:////proc/nowhere/library.db", "cannot be opened"),
+        ("sqlite:////proc/nowhere/library.db", "there is no folder /proc/nowhere"),
+        ("/proc/nowhere/library.db", "there is no folder /proc/nowhere"),
     ],
 )
 def test_an_address_that_leads_nowhere_is_refused_with_a_sentence(url: str, words: str) -> None:
     with pytest.raises(LibraryError, match=words):
         Library(url)
+
+
+def test_a_plain_path_is_a_file_and_it_is_told_where_skills_are_kept(path: Path) -> None:
+    Library(str(path)).close()
+
+    assert path.exists()
+    assert told(str(path)) == f"Skills are kept in {path}."
+    assert "secret" not in told("postgresql://teacher:secret@127.0.0.1:1/skills")
+    assert told("sqlite://").startswith("Nothing will be kept")
+
+
+def test_the_folder_of_the_default_is_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("GC_TEACH_LIBRARY", raising=False)
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "made"))
+
+    Library(default_url()).close()
+
+    assert list(tmp_path.rglob("library.db"))
 
 
 def test_the_default_is_a_file_of_the_user_unless_the_environment_names_another(
