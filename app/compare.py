@@ -60,10 +60,10 @@ def _task(file: Path, section: Section | None, align_by: AlignBy, units: Units) 
     """Open a recording, or a built-in skill with the things in its way."""
     document = opened(file, None if units == "auto" else units)
     tube = Tube(section or document.settings.section, align_by, document.settings.stations)
-    return replace(task_of(document), tube=tube, arm=_arm_among_things(document))
+    return replace(task_of(document), tube=tube, arm=arm_among_things(document))
 
 
-def _arm_among_things(document: Document) -> Arm | None:
+def arm_among_things(document: Document) -> Arm | None:
     """Give an arm that heeds what stands around; None where nothing does."""
     conditions = conditions_of(learn(document), View())
     if not conditions.obstacles:

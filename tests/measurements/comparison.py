@@ -6,11 +6,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import tyro
 
 from app.baselines import methods
+from app.compare import arm_among_things
 from app.comparison import Comparison, Task, claims, compare, task_of
 from app.resources import static_folder
 from app.skills import load_skill, skill_names
@@ -30,8 +32,8 @@ demonstrations, aligned by arc length.
   merge them.
 - *end off*: from the end of the directrix. *Frechet*, *DTW* (a sample): from the nearest demonstration. Means
   of all runs.
-- *touch*: runs whose hand, a point here, is in what stands in the way. *time*: learning and five runs, by the
-  tube's.
+- *touch*: runs with which the arm touches what stands in the way; where the motion goes through a ring, the
+  point that the hand leads. *time*: learning and five runs, by the tube's.
 
 | set | method | kept [%] | end off [cm] | Frechet [cm] | DTW [cm] | jerk [m²/s⁶] | touch | time |
 |---|---|---|---|---|---|---|---|---|"""
@@ -40,7 +42,8 @@ demonstrations, aligned by arc length.
 def tasks() -> Iterator[tuple[str, Task]]:
     skills = static_folder() / "skills"
     for name in skill_names(skills):
-        yield name, task_of(load_skill(skills, name))
+        document = load_skill(skills, name)
+        yield name, replace(task_of(document), arm=arm_among_things(document))
     if DATA.is_dir():
         for name in ALL_SETS:
             yield name, Task(tuple(load(name)))
@@ -70,6 +73,8 @@ def main(*, out: Path | None = None) -> None:
     table, held, broken = [INTRODUCTION], 0, []
     for name, task in tasks():
         found = compare(task, methods(tube=task.tube), STARTS)
+        if task.arm is not None:
+            task.arm.close()
         table += lines(name, found)
         told = claims(found)
         held += sum(claim.holds for claim in told)
