@@ -17,6 +17,11 @@ POINTS: Final = 80
 """Of each line."""
 
 
+def compares(state: State) -> bool:
+    """Whether compared runs are drawn: the skill's own lines are thin then, so that they are told apart."""
+    return state.view.show_compared and state.compared is not None and state.compared.drawn
+
+
 class ComparedRuns:
     """``/compared/<method>/<k>``, one a start; out of sight when the skill has changed since.
 

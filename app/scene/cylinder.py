@@ -7,12 +7,13 @@ import viser
 
 from app.actions import Actions
 from app.document import FloatArray
+from app.scene.compared import compares
 from app.scene.geometry import pick_tube, tube_mesh
 from app.scene.nodes import Line, Mesh
 from app.scene.playhead import station_at, time_of
 from app.scene.polyline import along, nearest_to_ray, segments
 from app.scene.pulls import checked_point
-from app.scene.style import DIRECTRIX, FORMER_OPACITY, SECTION, THICK, TUBE, TUBE_OPACITY
+from app.scene.style import DIRECTRIX, FORMER_OPACITY, SECTION, THICK, THIN, TUBE, TUBE_OPACITY
 from app.store import State
 from gc_core import GeneralizedCylinder
 from gc_core.arrays import evenly
@@ -90,6 +91,7 @@ class Directrix:
         self._actions = actions
         self._bound = False
         self._cylinder: GeneralizedCylinder | None = None
+        self._thickness = THICK
         self._picked: GeneralizedCylinder | None = None
         self._state: State | None = None
 
@@ -99,9 +101,11 @@ class Directrix:
         cylinder = state.model.cylinder
         if cylinder is not None and cylinder is not self._picked and not (state.dragging and self._bound):
             self._draw_pick(cylinder)
-        if cylinder is self._cylinder:
+        thickness = THIN if compares(state) else THICK
+        if cylinder is self._cylinder and thickness == self._thickness:
             return
-        self._cylinder = cylinder
+        self._cylinder, self._thickness = cylinder, thickness
+        self._line.look(DIRECTRIX, thickness)
         if cylinder is None:
             self._line.hide()
         else:

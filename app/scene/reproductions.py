@@ -12,6 +12,7 @@ import viser
 from app.actions import Actions
 from app.document import FloatArray
 from app.model import Run
+from app.scene.compared import compares
 from app.scene.geometry import arrowheads, pick_tube
 from app.scene.grip import Grip
 from app.scene.nodes import Ball, Line, Mesh
@@ -30,6 +31,7 @@ from app.scene.style import (
     START_RADIUS,
     START_RADIUS_IN_TRY,
     THICK,
+    THIN,
 )
 from app.scene.view import Eye
 from app.store import Hand, State
@@ -43,13 +45,14 @@ class Reproductions:
         self._paths: list[_Path] = []
 
     def draw(self, state: State) -> None:
-        """Draw every run of the model; in Compare only those that are compared are seen."""
-        runs = state.model.runs if state.view.show_reproductions and not _compares(state) else ()
+        """Draw every run of the model, thin beside those that are compared."""
+        runs = state.model.runs if state.view.show_reproductions else ()
+        thickness = THIN if compares(state) else THICK
         while len(self._paths) < len(runs):
             name = f"/reproductions/{len(self._paths)}"
             self._paths.append(_Path(self._api, name, self._actions, self._clock))
         for i, path in enumerate(self._paths):
-            path.draw(runs[i] if i < len(runs) else None, state.dragging is not None)
+            path.draw(runs[i] if i < len(runs) else None, state.dragging is not None, thickness)
 
 
 class _Path:
@@ -64,14 +67,15 @@ class _Path:
         self._actions, self._clock = actions, clock
         self._bound = False
         self._run: Run | None = None
+        self._thickness = THICK
         self._picked: Run | None = None
 
-    def draw(self, run: Run | None, dragging: bool) -> None:
+    def draw(self, run: Run | None, dragging: bool, thickness: float) -> None:
         if run is not None and run is not self._picked and not (dragging and self._bound):
             self._draw_pick(run)
-        if run is self._run:
+        if run is self._run and thickness == self._thickness:
             return
-        self._run = run
+        self._run, self._thickness = run, thickness
         if run is None:
             self._pick.hide()
             self._picked = None
@@ -89,7 +93,7 @@ class _Path:
             self._bound = True
 
     def _draw_free(self, positions: FloatArray) -> None:
-        self._line.look(REPRODUCTION, THICK)
+        self._line.look(REPRODUCTION, self._thickness)
         self._line.show(segments(positions))
         self._arrows.show(*arrowheads(positions))
         self._free.hide()
@@ -149,11 +153,6 @@ class _Start:
         if not self._bound:
             bind_pull(handle, self._actions, self._clock, ball=True)
             self._bound = True
-
-
-def _compares(state: State) -> bool:
-    known = state.compared
-    return state.view.tab == "Compare" and state.view.show_compared and known is not None and known.drawn
 
 
 def hides(hand: FloatArray, start: FloatArray, camera: FloatArray, radius: float) -> bool:

@@ -64,10 +64,13 @@ def test_what_is_compared_already_costs_nothing_to_draw(stage: Stage) -> None:
     assert not stage.sent()
 
 
-def test_in_compare_the_runs_of_the_skill_make_room_for_those_that_are_compared(stage: Stage) -> None:
-    seen = []
-    for tab in ("Compare", "Teach"):
-        stage.draw(replace(compared(), view=replace(VIEW, tab=tab)))
-        seen.append([shown(stage, name) for name in ("/reproductions/0", "/compared/gc/0")])
+def test_the_skill_s_own_lines_are_thinner_than_those_that_are_compared(stage: Stage) -> None:
+    widths = []
+    for one in (compared(), compared(outdated=True)):
+        stage.draw(one)
+        own = ("/reproductions/0/line", "/directrix", "/compared/gc/0")
+        widths.append([stage.client.node(name).props["thickness"] for name in own])
 
-    assert seen == [[False, True], [True, True]]
+    (run, middle, line), after = widths
+    assert max(run, middle) < 0.5 * line
+    assert min(after[:2]) > max(run, middle)
