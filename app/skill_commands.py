@@ -20,7 +20,7 @@ from app import edits, skills
 from app.commands import Units
 from app.document import Document
 from app.exports import Subject, format_of, is_skill, parcel, summary, unpack
-from app.files import content_of, inspect, put
+from app.files import FileError, content_of, inspect, put
 from app.library import Library, default_url
 from app.model import learn
 from app.pages import fresh_code
@@ -103,17 +103,27 @@ def import_skill(
 
 
 @cli.command(name="export")
-def export_skill(name: tyro.conf.Positional[str], *, to: Path, library: str = "", json: bool = False) -> None:
+def export_skill(
+    name: tyro.conf.Positional[str],
+    *,
+    to: Path,
+    force: tyro.conf.FlagCreatePairsOff[bool] = False,
+    library: str = "",
+    json: bool = False,
+) -> None:
     """Write a skill as a file; the ending chooses the format.
 
     Args:
         name: Title or code of a saved skill, or name of a built-in one.
         to: Where to write it: .gcteach (all of it), .html (a page that plays), .csv .mat .npz .h5
             (demonstrations), .yaml .json (a run for a real Jaco), .glb (the tube), .svg .png (a figure), .py.
+        force: Write in the place of a file that is there already.
         library: Where skills are saved: a file (skills.db, sqlite:///skills.db) or postgresql://….
         json: Print one JSON value instead of words.
     """
     format_of(to.name)
+    if to.exists() and not force:
+        raise FileError(to.name, f"{to} is there already. Choose another name, or replace it with --force.")
     document = _named(name, library)[1]
     made = parcel(to.suffix.lower(), Subject(document, learn(document), _arm))
     put(to, made.content)

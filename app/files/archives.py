@@ -11,6 +11,8 @@ from typing import Final
 
 from app.files.errors import FileError, TooLargeError, UnreadableError
 
+TEXT: Final = "skill.json"
+"""What makes an archive a whole skill."""
 LARGEST_UNPACKED: Final = 256 * 2**20
 """What an archive may unpack to [bytes]."""
 

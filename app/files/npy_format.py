@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.document import FloatArray
-from app.files.archives import members
+from app.files.archives import TEXT, members
 from app.files.csv_format import labels, name_of
 from app.files.errors import BadValueError, PickledError, UnreadableError
 from app.files.recording import Contents, Recording, check_count, check_length
@@ -84,7 +84,14 @@ def format_npz(demonstrations: Sequence[Demonstration]) -> bytes:
 
 
 def _members(name: str, content: bytes) -> dict[str, NDArray[Any]]:
-    found = members(name, content, lambda member: member.endswith(".npy"), _REMEDY)
+    def wanted(member: str) -> bool:
+        if member == TEXT:
+            raise UnreadableError(
+                name, "it is a whole skill", "Give it the ending .gcteach and open it again."
+            )
+        return member.endswith(".npy")
+
+    found = members(name, content, wanted, _REMEDY)
     return {member.removesuffix(".npy"): parse_array(name, packed) for member, packed in found.items()}
 
 

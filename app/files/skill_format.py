@@ -18,13 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.document import FloatArray
-from app.files.archives import members
+from app.files.archives import TEXT, members
 from app.files.errors import TooLargeError, UnreadableError
 from app.files.npy_format import parse_array
 from app.files.recording import Contents, Recording, check_count, check_length
 
 SUFFIX: Final = ".gcteach"
-TEXT: Final = "skill.json"
 LONGEST_TEXT: Final = 4 * 2**20
 """[bytes]"""
 _ARRAY: Final = re.compile(r"[0-9a-f]{40}\.npy")

@@ -118,6 +118,22 @@ def test_what_cannot_be_done_is_said_in_a_sentence(skills: Any, words: tuple[str
     assert said in skills(*words)
 
 
+def test_a_file_that_is_there_is_replaced_only_when_that_is_wanted(skills: Any, tmp_path: Path) -> None:
+    path = tmp_path / "mine.csv"
+    path.write_text("precious")
+
+    assert "is there already" in skills("export", CODE, "--to", str(path))
+    assert path.read_text() == "precious"
+    assert skills("export", CODE, "--to", str(path), "--force")["bytes"] == path.stat().st_size
+
+
+def test_a_skill_under_the_ending_of_numbers_is_said_to_be_a_skill(skills: Any, tmp_path: Path) -> None:
+    path = tmp_path / "mine.npz"
+    path.write_bytes(pack(taught()))
+
+    assert "it is a whole skill. Give it the ending .gcteach" in skills("import", str(path))
+
+
 def test_a_damaged_file_is_not_imported(skills: Any, tmp_path: Path) -> None:
     path = tmp_path / "damaged.gcteach"
     path.write_bytes(pack(taught())[:-100])
