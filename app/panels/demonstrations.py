@@ -98,7 +98,9 @@ class DemonstrationRow:
             assign(self._part, max=duration)
         muted = " · muted" if shown.muted else ""
         wrong = "" if self._noted is None else f" · {FAULT_WORDS[self._noted.note.fault]}"
-        assign(self._folder, label=f"{demonstration.name} · {words.seconds(duration)}{muted}{wrong}")
+        assign(
+            self._folder, label=f"{words.short(demonstration.name)} · {words.seconds(duration)}{muted}{wrong}"
+        )
 
     def _show_note(self) -> None:
         assign(self._wrong, visible=self._noted is not None)

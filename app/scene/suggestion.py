@@ -21,8 +21,8 @@ PULSE: Final = 0.25
 BEAT: Final = 1.25
 """... once in this time [s]."""
 WORDS: Final = "show one here"
-ABOVE: Final = np.array([0.0, 0.0, 1.5 * RADIUS])
-"""From the disc to its words, which would cover half of it [m]."""
+ABOVE: Final = np.array([1.5 * RADIUS, 0.0, 1.5 * RADIUS])
+"""From the disc to its words, which would cover half of it, from the side and from the top [m]."""
 
 
 class SuggestionDisc:
