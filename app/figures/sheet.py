@@ -8,7 +8,7 @@ Figures know nothing of windows: `sheet` makes one, `saved` turns it into the by
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from io import BytesIO
@@ -19,6 +19,7 @@ import numpy as np
 from matplotlib import colors
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from app.arm.shapes import Shape, pose_of
@@ -231,13 +232,17 @@ def slice_of(axes: Any, cylinder: GeneralizedCylinder, station: int) -> None:
         axis.set_major_locator(MaxNLocator(4, integer=True))
 
 
-def legend(figure: Any, columns: int = 6) -> None:
-    """Explain below a figure each kind of line once."""
+def legend(figure: Any, columns: int = 6, words: Mapping[str, str] | None = None) -> None:
+    """Explain below a figure each kind of line once; with ``words`` instead of its own, the tube, too."""
     named: dict[str, Any] = {}
+    if words is not None:
+        named["tube"] = Patch(facecolor=SKIN[0], edgecolor=TUBE)
+    words = words or {}
     for axes in figure.axes:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             named.setdefault(label, handle)
-    figure.legend(list(named.values()), list(named), loc="outside lower center", ncols=columns)
+    labels = [words.get(label, label) for label in named]
+    figure.legend(list(named.values()), labels, loc="outside lower center", ncols=columns)
 
 
 def saved(figure: Any, form: Form, dots_per_inch: float | None = None) -> bytes:

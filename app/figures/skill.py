@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Final
 
 from app.arm.shapes import Shape
 from app.document import FloatArray
@@ -22,6 +22,13 @@ from app.figures.sheet import (
 from app.figures.views import seen_flat
 from gc_core import GeneralizedCylinder
 
+WORDS: Final = {
+    "tube": "tube (generalized cylinder)",
+    "directrix": "middle line",
+    "reproductions": "new run",
+}
+"""Those of the app, for the experts' words."""
+
 
 def draw(
     cylinder: GeneralizedCylinder,
@@ -36,7 +43,7 @@ def draw(
     portrait(where, cylinder, demonstrations, runs, things)
     where.title(title)
     scale_bar(where, bar_for(cylinder))
-    legend(figure)
+    legend(figure, words=WORDS)
     return figure
 
 

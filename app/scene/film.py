@@ -39,6 +39,7 @@ from app.scene.style import (
     THIN,
     THING,
     THING_EDGE,
+    TUBE,
 )
 from app.scene.view import look_from_here
 from app.scene.world import draw_world
@@ -51,6 +52,12 @@ MOST_PICTURES: Final = 600
 """Of longer runs fewer a second are kept."""
 REST: Final = 1.0
 """The film rests at its end before it begins again [s]."""
+LEGEND: Final = (
+    (DEMONSTRATION, "demonstrations"),
+    (TUBE, "tube"),
+    (DIRECTRIX, "middle line"),
+    (REPRODUCTION, "new run"),
+)
 MOST_POINTS: Final = 300
 """Of a drawn line."""
 
@@ -94,8 +101,23 @@ def film(arm: Arm, model: Model, plan: Plan | None) -> str:
         page = recording.as_html()
     finally:
         server.stop()
-    title = f"<title>{html.escape(model.source.title)} - gc-teach</title>"
-    return page.replace("<title>Viser</title>", title, 1)
+    title = html.escape(model.source.title)
+    page = page.replace("<title>Viser</title>", f"<title>{title} - gc-teach</title>", 1)
+    body, end, rest = page.rpartition("</body>")
+    return f"{body}{_legend(title)}{end}{rest}"
+
+
+def _legend(title: str) -> str:
+    """Write over the picture what is played, and what its colours mean; a click goes through."""
+    words = " &nbsp; ".join(
+        f'<span style="white-space:nowrap"><span style="color:rgb{color}">&#9632;</span> {name}</span>'
+        for color, name in LEGEND
+    )
+    return (
+        '<div style="position:fixed;left:0.75rem;top:0.6rem;z-index:9;pointer-events:none;'
+        'font:0.8rem/1.5 system-ui,sans-serif;color:#3a3f49"><b>'
+        f"{title}</b><br>{words}</div>"
+    )
 
 
 def _pictures(arm: Arm, model: Model, plan: Plan | None) -> list[State]:

@@ -44,6 +44,7 @@ def test_the_replay_page_shows_the_tube_and_the_moving_arm_without_a_server(
 
     assert len(made.content) < 10e6
     assert tab.page.title() == "Reaching - gc-teach"
+    assert tab.page.get_by_text("middle line").is_visible()
     assert len(tab.points("/tube")) == 100 * 32
     assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
     context.close()

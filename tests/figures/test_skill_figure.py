@@ -32,6 +32,13 @@ def test_a_skill_is_drawn_as_the_same_file_each_time(model: Model) -> None:
     assert drawn(model, "svg") == first
 
 
+def test_the_legend_has_the_tube_and_the_words_of_the_app(model: Model) -> None:
+    svg = drawn(model, "svg")
+
+    assert all(word in svg for word in (b"tube (generalized cylinder)", b"middle line", b"new run"))
+    assert b"directrix" not in svg
+
+
 def test_a_title_is_not_read_as_a_formula(model: Model) -> None:
     assert rb"Both $\q$ cost 5$" in drawn(model, "svg", r"Both $\q$ cost 5$")
 
