@@ -109,7 +109,6 @@ class Document:
 
 
 Pace: TypeAlias = Literal["taught", "fastest"]
-Tab: TypeAlias = Literal["Teach", "Try", "Move", "Fix", "Compare"]
 Feel: TypeAlias = Literal["soft", "medium", "firm"]
 
 
@@ -117,7 +116,6 @@ Feel: TypeAlias = Literal["soft", "medium", "firm"]
 class View:
     """What a person looks at and works with; not saved, not undone."""
 
-    tab: Tab = "Teach"
     show_tube: bool = True
     show_demonstrations: bool = True
     show_reproductions: bool = True

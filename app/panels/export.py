@@ -17,6 +17,8 @@ LABELS: Final = {f"{form.label} ({suffix})": suffix for suffix, form in FORMATS.
 PICTURES: Final = {".png": "image/png", ".svg": "image/svg+xml"}
 LARGEST_PICTURE: Final = 2 * 2**20
 """Shown in the dialog [bytes]."""
+# A dialog puts the cursor on the first thing that takes it, and a dropdown that has it hides the preview.
+INTRODUCTION: Final = f'<div tabindex="0" style="outline:none">{words.note("Choose a kind of file.")}</div>'
 MAKING: Final = "It is being made …"
 
 
@@ -53,6 +55,7 @@ class _Dialog:
         self._modal = gui.add_modal("Export this skill")
         self._changed = Changed()
         with self._modal:
+            gui.add_html(INTRODUCTION)
             self._kind: Binding[str] = Binding(
                 gui.add_dropdown("As", tuple(LABELS)),
                 read=lambda state: _label(state.parcel),

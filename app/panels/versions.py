@@ -21,8 +21,9 @@ class VersionsPanel:
 
     def __init__(self, gui: viser.GuiApi, actions: Actions) -> None:
         self._changed = Changed()
-        self._folder = gui.add_folder("Earlier versions", expand_by_default=False)
-        with self._folder:
+        folder = gui.add_folder("Earlier versions", expand_by_default=False)
+        with folder:
+            self._whose = gui.add_html("")
             self._menu: Menu[int] = Menu(gui, "Version", "After which step, and when that was.")
             group = gui.add_button_group("", (GO_BACK, COPY))
             gui.add_html(words.note("Going back is a step like any other: Undo takes it back."))
@@ -36,7 +37,8 @@ class VersionsPanel:
 
     def draw(self, state: State) -> None:
         """List the versions, and say of which skill they are."""
-        assign(self._folder, label=f"Earlier versions of {state.document.title}, which is open")
+        whose = f"Of {words.escape_line(state.document.title)}, which is open:"
+        assign(self._whose, content=words.note(whose))
         if self._changed(state.history) and state.history is not None:
             self._menu.offer(versions(state.history, datetime.now(UTC)))
 

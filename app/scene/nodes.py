@@ -120,21 +120,16 @@ class Ball:
     def __init__(self, api: viser.SceneApi, name: str, *, radius: float, color: Color) -> None:
         self._api, self._name = api, name
         self._radius, self._color = radius, color
-        self._scale = 1.0
         self._visible = False
         self._handle: viser.IcosphereHandle | None = None
 
-    def show(
-        self, position: FloatArray, *, color: Color | None = None, scale: float = 1.0
-    ) -> viser.IcosphereHandle:
+    def show(self, position: FloatArray, *, color: Color | None = None) -> viser.IcosphereHandle:
         """Put it at a position (3,) [m]."""
         color = color or self._color
         handle = self._handle or self._add(position)
         handle.position = position
         if color != self._color:
             handle.color = self._color = color
-        if scale != self._scale:
-            handle.scale = self._scale = scale
         if not self._visible:
             self._visible = handle.visible = True
         return handle

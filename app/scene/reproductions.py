@@ -29,7 +29,6 @@ from app.scene.style import (
     START_GRIP,
     START_GRIP_BESIDE,
     START_RADIUS,
-    START_RADIUS_IN_TRY,
     THICK,
     THIN,
 )
@@ -110,7 +109,7 @@ class _Path:
 
 
 class Starts:
-    """``/start/i``: pull one for another reproduction; larger in Try, where it also wins over the hand."""
+    """``/start/i``: pull one for another reproduction."""
 
     def __init__(self, api: viser.SceneApi, actions: Actions, clock: Callable[[], float], eye: Eye) -> None:
         self._api, self._actions, self._clock, self._eye = api, actions, clock, eye
@@ -119,13 +118,12 @@ class Starts:
     def draw(self, state: State) -> None:
         """Put a ball where each run begins."""
         runs = state.model.runs if state.view.show_reproductions else ()
-        scale = START_RADIUS_IN_TRY / START_RADIUS if state.view.tab == "Try" else 1.0
         while len(self._starts) < len(runs):
             name = f"/start/{len(self._starts)}"
             self._starts.append(_Start(self._api, name, self._actions, self._clock))
         for i, ball in enumerate(self._starts):
             playing = state.hand if state.playback.playing else None
-            ball.draw(runs[i].start if i < len(runs) else None, scale, self._eye.position, playing)
+            ball.draw(runs[i].start if i < len(runs) else None, self._eye.position, playing)
 
 
 class _Start:
@@ -135,21 +133,20 @@ class _Start:
         self._actions, self._clock = actions, clock
         self._bound = False
         self._start: FloatArray | None = None
-        self._scale = 0.0
 
-    def draw(self, start: FloatArray | None, scale: float, camera: FloatArray, playing: Hand | None) -> None:
+    def draw(self, start: FloatArray | None, camera: FloatArray, playing: Hand | None) -> None:
         if start is not None:
-            self._show(start, scale)
-            seen = playing is not None and not hides(playing.position, start, camera, scale * START_RADIUS)
-            self._grip.aim(start, camera, scale=scale, length=START_GRIP_BESIDE if seen else None)
+            self._show(start)
+            seen = playing is not None and not hides(playing.position, start, camera, START_RADIUS)
+            self._grip.aim(start, camera, length=START_GRIP_BESIDE if seen else None)
         elif self._start is not None:
             self._ball.hide()
-        self._start, self._scale = start, scale
+        self._start = start
 
-    def _show(self, start: FloatArray, scale: float) -> None:
-        if start is self._start and scale == self._scale:
+    def _show(self, start: FloatArray) -> None:
+        if start is self._start:
             return
-        handle = self._ball.show(start, scale=scale)
+        handle = self._ball.show(start)
         if not self._bound:
             bind_pull(handle, self._actions, self._clock, ball=True)
             self._bound = True

@@ -50,8 +50,6 @@ HATCHED: Final = 11.0
 
 HAND_RADIUS: Final = 0.025
 START_RADIUS: Final = 0.016
-START_RADIUS_IN_TRY: Final = 0.028
-"""Larger than the hand, which rests in the same place, so that it is what one grabs."""
 LANDMARK_RADIUS: Final = 0.030
 VIA_RADIUS: Final = 0.018
 OBJECT_HALF: Final = 0.030
