@@ -23,6 +23,7 @@ from app.figures.views import letters_of
 from app.resources import static_folder
 from app.skills import load_skill
 from gc_core import Demonstration
+from tests.baselines.makers import needs_primitives
 
 
 @cache
@@ -97,6 +98,7 @@ def test_four_skills_have_a_tube_each() -> None:
     assert skins == [1, 1, 1, 1]
 
 
+@needs_primitives
 def test_five_runs_of_each_method_begin_at_the_starts() -> None:
     assert counts("9", sheet.REPRODUCTION)[:5] == [5] * 5
 
